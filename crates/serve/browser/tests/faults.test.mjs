@@ -82,6 +82,28 @@ describe("a dataset with faults", () => {
         await page.locator("#frame-number", { hasText: "1 of 3" }).waitFor({ timeout: 15_000 });
     });
 
+    test("scenes, cameras and the verdict of a dataset in the making appear by themselves", async (t) => {
+        const path = copy(t);
+        const later = [join("scenes", "home"), "verify.json"].map((name) => [join(path, name), join(path, "..", `later_${name.replaceAll(/[/\\\\]/g, "_")}`)]);
+        for (const [there, aside] of later) renameSync(there, aside);
+        const { url } = await serve(t, path, 0, "view");
+        const page = await (await browser(t)).newPage({ viewport: { width: 1280, height: 720 } });
+        await page.goto(`${new URL(url).origin}/view/#layer=color`);
+        await page.locator("#message h2", { hasText: "The dataset has no scenes" }).waitFor();
+        assert.equal(await page.locator("#verdict .badge").count(), 0);
+        // The scene is there first, then its camera.
+        const [[scene, aside], [report, kept]] = later;
+        const ofCamera = [join("_detail", "cam_00"), "images"].map((name, i) => [name, join(path, "..", `later_${i}`)]);
+        for (const [name, to] of ofCamera) renameSync(join(aside, name), to);
+        renameSync(aside, scene);
+        await page.locator("#message h2", { hasText: "has no cameras" }).waitFor({ timeout: 15_000 });
+        for (const [name, from] of ofCamera) renameSync(from, join(scene, name));
+        renameSync(kept, report);
+        await page.waitForFunction(() => document.querySelector("#stage").dataset.frame !== "", null, { timeout: 15_000 });
+        await page.locator("#verdict .badge").first().waitFor({ timeout: 15_000 });
+        assert.ok(await page.locator("#message").isHidden());
+    });
+
     test("the program ends at once, also while a page is open", async (t) => {
         const { url, port, end } = await serve(t, whole, 0, "view");
         const page = await (await browser(t)).newPage();

@@ -57,6 +57,9 @@ export const getCamera = (scene, camera) => once(`../api/view/camera/${encodeURI
 /** What the server says of a camera now, as text. @param {string} scene @param {string} camera */
 export const peek = async (scene, camera) => JSON.stringify(await getJson(`../api/view/camera/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}`));
 
+/** What the server says of the dataset now, as text. */
+export const peekDataset = async () => JSON.stringify(await getJson("../api/view/dataset"));
+
 /** @param {string} scene @param {string} camera @param {number} frame @returns {Promise<FrameFacts>} */
 export const getFrame = (scene, camera, frame) =>
     once(`../api/view/frame/${encodeURIComponent(scene)}/${encodeURIComponent(camera)}/${frame}`);

@@ -95,6 +95,7 @@ export class Page {
     /** The dataset has changed while one looked. @param {number} frames how many are new */
     async #grown(frames) {
         if (frames > 0) toast(frames === 1 ? "1 new frame." : `${frames} new frames.`, "", "good");
+        this.#verdict();
         await this.gallery.reload();
     }
 

@@ -63,7 +63,7 @@ export class Session {
         const { state } = this.store;
         try {
             const scenes = this.dataset.scenes;
-            if (!scenes.length) throw { message: "The dataset has no scenes.", help: "Render some; this page shows them when it is loaded again." };
+            if (!scenes.length) throw { message: "The dataset has no scenes.", help: "Render some; they appear here as they come." };
             if (state.scene && !scenes.includes(state.scene)) throw missing(`scene ${state.scene}`, "this dataset", scenes);
             const scene = await getScene(state.scene || scenes[0]);
             if (state.camera && scene.cameras.length && !scene.cameras.includes(state.camera)) throw missing(`camera ${state.camera}`, `the scene ${scene.name}`, scene.cameras);
@@ -74,7 +74,7 @@ export class Session {
             this.camera = camera;
             await this.followOther();
             const lost = scene.problems.find((one) => one.panel === "views");
-            this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "Plan trajectories for it, or choose another scene." };
+            this.problem = camera ? null : lost ? { message: lost.error, help: lost.help } : { message: `The scene ${scene.name} has no cameras.`, help: "They appear here as they are planned; or choose another scene." };
             this.looks.enter(scene, [camera, this.otherCamera]);
             const near = this.#nearest(state);
             if (state.frame >= 0 && near.frame !== state.frame) toast(`Frame ${state.frame} has no pictures; this is frame ${near.frame}.`);
@@ -111,9 +111,14 @@ export class Session {
 
     /** Reads everything anew. */
     async reload() {
-        forget();
         this.loader.forget();
         this.tracks.forget();
+        await this.reread();
+    }
+
+    /** Reads anew what there is, and keeps the pictures that are here. */
+    async reread() {
+        forget();
         this.dataset = await getDataset();
         await this.follow();
     }

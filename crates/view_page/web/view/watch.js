@@ -1,6 +1,6 @@
 // Follows a dataset that is being made: asks now and then whether the server has something new, and reads it.
 
-import { forget, peek } from "./catalogue.js";
+import { forget, peek, peekDataset } from "./catalogue.js";
 
 /** Between two questions: at first and while frames are missing, and when all are there. */
 const SOON_MS = 4000, LATER_MS = 30_000;
@@ -10,8 +10,10 @@ export class Watch {
     constructor(session, changed) {
         this.session = session;
         this.changed = changed;
-        /** What the server said last, and of which camera. */
+        /** What the server said last of the camera that is shown, and of which. */
         this.last = "";
+        /** What it said last of the dataset: scenes, pages, the verdict. */
+        this.whole = JSON.stringify(session.dataset);
         this.#later();
         document.addEventListener("visibilitychange", () => document.hidden || this.#look());
     }
@@ -23,27 +25,38 @@ export class Watch {
 
     #later() {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.#look(), this.missing || !this.last ? SOON_MS : LATER_MS);
+        const soon = !this.session.camera || this.missing || !this.last;
+        this.timer = setTimeout(() => this.#look(), soon ? SOON_MS : LATER_MS);
     }
 
     async #look() {
-        const { scene, camera } = this.session;
-        if (document.hidden || !scene || !camera) return this.#later();
+        if (document.hidden) return this.#later();
         try {
-            // The browser sends the tag of what it has, and the server answers with nothing where that is still true.
-            const said = await peek(scene.name, camera.name);
-            const key = `${scene.name}/${camera.name} ${said}`;
-            const isNew = this.last.startsWith(`${scene.name}/${camera.name} `) && this.last !== key;
-            this.last = key;
-            if (isNew) {
+            if ((await this.#datasetIsNew()) || !this.session.camera || (await this.#cameraIsNew())) {
                 const before = this.session.frames().length;
-                forget();
-                await this.session.follow();
+                await this.session.reread();
                 await this.changed(this.session.frames().length - before);
             }
         } catch {
             // The server has ended; whoever asks for something is told so.
         }
         this.#later();
+    }
+
+    async #datasetIsNew() {
+        const said = await peekDataset();
+        const isNew = said !== this.whole;
+        this.whole = said;
+        return isNew;
+    }
+
+    async #cameraIsNew() {
+        const { scene, camera } = this.session;
+        if (!scene || !camera) return false;
+        // The browser sends the tag of what it has, and the server answers with nothing where that is still true.
+        const key = `${scene.name}/${camera.name} ${await peek(scene.name, camera.name)}`;
+        const isNew = this.last.startsWith(`${scene.name}/${camera.name} `) && this.last !== key;
+        this.last = key;
+        return isNew;
     }
 }
