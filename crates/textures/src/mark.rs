@@ -49,7 +49,7 @@ impl Mark {
             Self::Patch => {
                 let edge = border + 0.10 * fbm(uv, [14, 14], 3, seed ^ 9);
                 let strokes = 0.8 + 0.2 * noise(Vec2::new(uv.x * 3.0, uv.y * 40.0), [3, 40], seed ^ 11);
-                smoothstep(0.06, 0.2, edge) * strokes * inside
+                smoothstep(0.06, 0.4, edge) * strokes * inside
             }
             Self::Spill => {
                 let distance = p.length() * (1.0 + 0.35 * uneven);

@@ -6,9 +6,9 @@ use enfilade_math::{Vec2, Vec3};
 /// Duration of a step, seconds.
 const STEP_S: f32 = 0.008;
 /// Steps until the sheet is at rest.
-const STEPS: usize = 300;
+const STEPS: usize = 230;
 /// Corrections of distances in each step.
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 6;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
 /// Share of the speed that a step leaves.
@@ -74,7 +74,9 @@ impl Sheet {
                     self.points[b] -= shift;
                 }
             }
-            self.keep_apart();
+            if step % 2 == 0 {
+                self.keep_apart();
+            }
             for (k, v) in speed.iter_mut().enumerate() {
                 let moved = (self.points[k] - before[k]).clamp_length_max(most);
                 self.points[k] = before[k] + moved;

@@ -73,17 +73,19 @@ impl Sheet {
     /// The sides of a sheet with padding in it, as [`Sheet::sides`] has them without: lumps of feathers, and creases, on
     /// the upper side.
     pub fn quilted(&self, origin: Vec3, rng: &mut Rng) -> [Mesh; 2] {
-        let [lumps, creases] = [(0.36, 0.018), (0.13, 0.013)].map(|(length, height)| Wrinkles::new(length, height, rng));
-        self.padded(origin, |q| lumps.at(q) + creases.at(q))
+        let [lumps, creases] = [(0.36, 0.012), (0.13, 0.011)].map(|(length, height)| Wrinkles::new(length, height, rng));
+        // Where it turns sharply, the lower side must not come through the upper one.
+        let thin = 0.55 * self.textile.half;
+        self.padded(origin, [&|q| lumps.at(q) + creases.at(q), &|_| thin])
     }
 
     /// The upper and the lower side, which meet at the border, around `origin`. Texture coordinates are metres on the cloth.
     pub fn sides(&self, origin: Vec3) -> [Mesh; 2] {
-        self.padded(origin, |_| 0.0)
+        self.padded(origin, [&|_| 0.0, &|_| 0.0])
     }
 
-    /// The sides with `padding` at points of the flat sheet, metres, on the upper one.
-    fn padded(&self, origin: Vec3, padding: impl Fn(Vec2) -> f32) -> [Mesh; 2] {
+    /// The sides with `padding` at points of the flat sheet, metres: how much the upper one is higher, and the lower one too.
+    fn padded(&self, origin: Vec3, padding: [&dyn Fn(Vec2) -> f32; 2]) -> [Mesh; 2] {
         let fine = Fine::of(self);
         let pitch = self.pitch() / FINE as f32;
         let half = 0.8 * self.textile.half;
@@ -95,8 +97,8 @@ impl Sheet {
                 let p = point.map_or(Vec3::ZERO, |p| {
                     let thick = match fine.is_border(i, j) {
                         true => HEM * half,
-                        false if side > 0.0 => half + padding(flat),
-                        false => half,
+                        false if side > 0.0 => half + padding[0](flat),
+                        false => half - padding[1](flat),
                     };
                     p + fine.normal(i, j) * side * thick - origin
                 });

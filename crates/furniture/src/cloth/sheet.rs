@@ -50,9 +50,9 @@ impl Textile {
         Self { size: Vec2::new(rng.range(1.2, 1.4), rng.range(1.5, 1.8)), cut: Cut::Plain, half: 0.009, pitch: 0.046, stiff: 0.1 }
     }
 
-    /// A duvet for a mattress of this width.
+    /// A duvet of this width.
     pub fn duvet(width: f32) -> Self {
-        Self { size: Vec2::new(width + 0.42, 1.95), cut: Cut::Plain, half: 0.024, pitch: 0.052, stiff: 0.1 }
+        Self { size: Vec2::new(width, 1.95), cut: Cut::Plain, half: 0.024, pitch: 0.052, stiff: 0.1 }
     }
 
     /// Whether a point of its rectangle, from −½ to ½, is cloth.

@@ -1,20 +1,23 @@
 //! Beds that somebody has slept in: the cover is thrown back and lies as it fell, pillows are askew, cushions and throws are put away.
 
-use super::stage::Stage;
+use super::stage::{Bundle, Stage};
 use super::table::interpolated;
-use super::textiles::{bounds_of, settle};
+use super::textiles::{bounds_of, hang, joined, settle};
 use crate::check::contact::runs_into;
 use enfilade_furniture::cloth::{Sheet, Textile};
 use enfilade_furniture::meet::{Body, overlap};
 use enfilade_furniture::{family_of, object_of};
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, Rng, Vec2, Vec3, hash_text};
-use enfilade_scene::Part;
+use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3, hash_text};
+use enfilade_scene::{Part, PartLabel};
+use std::f32::consts::TAU;
 
 /// Probability that a bed is unmade, at ½ and at 1.
 const UNMADE: [f32; 2] = [0.6, 0.96];
 /// Falls that are tried until the cover runs into nothing.
-const TRIES: usize = 4;
+const TRIES: usize = 6;
+/// Width of the cover beyond the mattress at the first try, and by how much it is less at each further one, metres: things stand close by.
+const BEYOND: [f32; 2] = [0.4, 0.08];
 /// Names of a cover's upper side; the lower one is its lining.
 const COVERS: [&str; 2] = ["duvet", "bedspread"];
 /// Height above the mattress from which the cover falls, metres: above pillows.
@@ -44,8 +47,12 @@ fn unmake(stage: &mut Stage, bed: &str, rng: &mut Rng) {
     let sides = [upper, lower].map(|part| (stage.home.scene.parts[part].clone(), stage.home.labels.parts[part]));
     let on_bed = on_bed(stage, bed);
     let covers = [sides[0].0.name.clone(), sides[1].0.name.clone()];
+    let throws = first_parts(stage, &on_bed);
     stage.remove(|part| covers.iter().any(|cover| cover == part) || on_bed.iter().any(|object| object_of(part) == object));
-    let thrown = (0..TRIES).find_map(|_| fallen(stage, bed, &|rng| thrown(lying.extent().x, pose, lying.max.z, rng), rng));
+    let thrown = (0..TRIES).find_map(|k| {
+        let width = lying.extent().x + BEYOND[0] - BEYOND[1] * k as f32;
+        fallen(stage, bed, thrown(width, pose, lying.max.z, rng), rng)
+    });
     for (k, (part, label)) in sides.into_iter().enumerate() {
         let part = match &thrown {
             Some((origin, meshes)) => {
@@ -58,11 +65,35 @@ fn unmake(stage: &mut Stage, bed: &str, rng: &mut Rng) {
         stage.home.labels.parts.push(label);
     }
     stage.renew(|name| name == bed);
+    for (part, label) in throws {
+        throw_on(stage, pose, lying.max.z, part, label, rng);
+    }
+}
+
+/// The first part of each throw or blanket among these objects, with its label.
+fn first_parts(stage: &Stage, objects: &[String]) -> Vec<(Part, PartLabel)> {
+    let parts = || stage.home.scene.parts.iter().zip(&stage.home.labels.parts);
+    let throws = objects.iter().filter(|object| family_of(object) != "cushion");
+    throws
+        .filter_map(|object| parts().find(|(part, _)| object_of(&part.name) == object))
+        .map(|(part, label)| (part.clone(), *label))
+        .collect()
+}
+
+/// Lets the throw of a bed fall on what lies there now.
+fn throw_on(stage: &mut Stage, pose: DAffine3, top: f32, part: Part, label: PartLabel, rng: &mut Rng) {
+    let textile = Textile::blanket(rng);
+    let at = pose.transform_point3(DVec3::new(f64::from(rng.range(-0.3, 0.3)), f64::from(rng.range(0.0, 0.7)), f64::from(top + FALL)));
+    let mut sheet = Sheet::new(textile, at.as_vec3(), rng.range(0.0, TAU), rng.range(0.4, 1.0), rng);
+    settle(stage, &mut sheet);
+    let Some(bounds) = bounds_of(&sheet) else { return };
+    let [upper, lower] = sheet.sides(bounds.center());
+    let bundle = Bundle { parts: vec![Part { world_from_mesh: DAffine3::IDENTITY, ..part }], labels: vec![label] };
+    hang(stage, bundle, joined(upper, lower), bounds.center());
 }
 
 /// The sides of a cover that has fallen, around a point, if it runs into nothing but the bed.
-fn fallen(stage: &Stage, bed: &str, cover: &dyn Fn(&mut Rng) -> Sheet, rng: &mut Rng) -> Option<(Vec3, [Mesh; 2])> {
-    let mut sheet = cover(rng);
+fn fallen(stage: &Stage, bed: &str, mut sheet: Sheet, rng: &mut Rng) -> Option<(Vec3, [Mesh; 2])> {
     settle(stage, &mut sheet);
     let origin = bounds_of(&sheet)?.center();
     let meshes = sheet.quilted(origin, rng);

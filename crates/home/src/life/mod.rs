@@ -14,12 +14,13 @@ mod stage;
 mod table;
 mod textiles;
 mod things;
+mod walls;
 
 use crate::place::Floor;
 use crate::plan::FloorPlan;
 use crate::{Home, HomeConfig};
 use enfilade_furniture::{Builder, DecorConfig, Finish, family_of, left_thing, object_of};
-use enfilade_math::{Bounds3, DAffine3, Rng, Vec3, hash_text};
+use enfilade_math::{Bounds3, DAffine3, Rng, hash_text};
 use enfilade_scene::{Labels, Scene};
 use stage::{Bundle, Stage};
 use std::collections::BTreeMap;
@@ -52,7 +53,6 @@ struct Wish {
     host: Option<String>,
     /// Parts among those that wait.
     parts: Range<usize>,
-    size: Vec3,
     cloth: Option<Textiles>,
     rng: Rng,
 }
@@ -105,7 +105,7 @@ impl Life {
         let own = self.rng.fork(room as u64).fork(hash_text(row.name));
         let rate = row.rate(self.lived_in) * clutter;
         let (families, by_area) = match row.at {
-            At::AlongWalls | At::Anywhere => {
+            At::AlongWalls | At::Anywhere | At::OnWalls(_) => {
                 return self.some(b, row, room, None, rate * area / FLOOR, &own);
             }
             At::On(families) => (families, true),
@@ -126,21 +126,21 @@ impl Life {
         for k in 0..count {
             let mut rng = rng.fork(k as u64 + 1);
             let first = b.part_count();
-            let (size, cloth) = match row.what {
+            let cloth = match row.what {
                 What::Things(families) => {
                     let family = families[rng.below(families.len())];
                     let Some(thing) = left_thing(family, &mut rng) else { continue };
                     thing.build(b, DAffine3::IDENTITY, &mut rng);
-                    (thing.size(), None)
+                    None
                 }
                 What::Cloth(sorts) => {
                     let sort = sorts[rng.below(sorts.len())];
                     sort.cut(b, &mut rng);
-                    (Vec3::ZERO, Some(sort))
+                    Some(sort)
                 }
             };
             let parts = first - self.base..b.part_count() - self.base;
-            self.wishes.push(Wish { row, room, host: host.cloned(), parts, size, cloth, rng });
+            self.wishes.push(Wish { row, room, host: host.cloned(), parts, cloth, rng });
         }
     }
 
@@ -162,9 +162,10 @@ impl Life {
             for wish in self.wishes.iter().filter(|wish| wish.cloth.is_some() == cloth) {
                 let bundle =
                     Bundle { parts: waiting.0.parts[wish.parts.clone()].to_vec(), labels: waiting.0.labels[wish.parts.clone()].to_vec() };
-                match wish.cloth {
-                    None => things::lay(&mut stage, &mut self.floors, wish, bundle),
-                    Some(sort) => textiles::throw(&mut stage, &mut self.floors, wish, bundle, sort),
+                match (wish.cloth, wish.row.at) {
+                    (None, At::OnWalls(heights)) => walls::hang(&mut stage, &mut self.floors[wish.room], wish, bundle, heights),
+                    (None, _) => things::lay(&mut stage, &mut self.floors, wish, bundle),
+                    (Some(sort), _) => textiles::throw(&mut stage, &mut self.floors, wish, bundle, sort),
                 }
             }
         }

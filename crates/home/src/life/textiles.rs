@@ -86,7 +86,7 @@ pub fn throw(stage: &mut Stage, floors: &mut [Floor], wish: &Wish, bundle: Bundl
 }
 
 /// Puts a bundle of one part into the home with this mesh.
-fn hang(stage: &mut Stage, mut bundle: Bundle, mesh: Mesh, origin: Vec3) {
+pub fn hang(stage: &mut Stage, mut bundle: Bundle, mesh: Mesh, origin: Vec3) {
     let scene = &mut stage.home.scene;
     scene.meshes.push(mesh.into());
     let number = scene.meshes.len() as u32 - 1;
@@ -94,7 +94,8 @@ fn hang(stage: &mut Stage, mut bundle: Bundle, mesh: Mesh, origin: Vec3) {
     stage.put(bundle, DAffine3::from_translation(origin.as_dvec3()));
 }
 
-fn joined(mut upper: Mesh, lower: Mesh) -> Mesh {
+/// One mesh of both sides.
+pub fn joined(mut upper: Mesh, lower: Mesh) -> Mesh {
     upper.append(&lower);
     upper
 }
