@@ -1,8 +1,8 @@
 //! Beds that somebody has slept in: the cover is thrown back and lies as it fell, pillows are askew, cushions and throws are put away.
 
+use super::cloth::{bounds_of, hang, joined, settle};
 use super::stage::{Bundle, Stage};
 use super::table::interpolated;
-use super::textiles::{bounds_of, hang, joined, settle};
 use crate::check::contact::runs_into;
 use enfilade_furniture::cloth::{Sheet, Textile};
 use enfilade_furniture::meet::{Body, overlap};

@@ -2,12 +2,14 @@
 //! [`HomeConfig::lived_in`](crate::HomeConfig::lived_in) says.
 //!
 //! The furnished home settles first, so that life changes nothing of it. Then come, in this order: beds that have been slept in
-//! ([`beds`]), chairs and cushions out of place ([`askew`]), things on tables, seats and floors ([`things`]), cloth that falls on what is
-//! there ([`textiles`]), all by the [`table`], and at last wear ([`marks`]). Whatever finds no place where it is free, carried and in nobody's way, is left out. Random
-//! numbers have a stream of their own, and each thing its own fork of it: with more life there are the same things and others besides.
+//! ([`beds`]), chairs and cushions out of place ([`askew`]), things on tables, seats, floors and walls ([`things`], [`walls`]), cloth that
+//! falls on what is there ([`cloth`]), all by the [`table`], and at last wear ([`marks`]). Whatever finds no place where it is free,
+//! carried and in nobody's way, is left out. Random numbers have a stream of their own, and each thing its own fork of it: with more life
+//! there are the same things and others besides.
 
 mod askew;
 mod beds;
+mod cloth;
 mod ground;
 mod marks;
 mod stage;
@@ -15,6 +17,7 @@ mod table;
 mod textiles;
 mod things;
 mod walls;
+mod wish;
 
 use crate::place::Floor;
 use crate::plan::FloorPlan;
@@ -26,7 +29,7 @@ use stage::{Bundle, Stage};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use table::{At, ROWS, Row, What, interpolated};
-use textiles::Textiles;
+use wish::Wish;
 
 /// Most traces of one row on one piece, or in one room.
 const MOST: usize = 14;
@@ -43,18 +46,6 @@ pub struct Furnished {
     pub parts: Range<usize>,
     /// The floor of the room.
     pub floor: Floor,
-}
-
-/// A trace that is made and has no place yet.
-struct Wish {
-    row: &'static Row,
-    room: usize,
-    /// The piece to which it belongs.
-    host: Option<String>,
-    /// Parts among those that wait.
-    parts: Range<usize>,
-    cloth: Option<Textiles>,
-    rng: Rng,
 }
 
 /// What life brings into a home, before it has its places.
@@ -165,7 +156,7 @@ impl Life {
                 match (wish.cloth, wish.row.at) {
                     (None, At::OnWalls(heights)) => walls::hang(&mut stage, &mut self.floors[wish.room], wish, bundle, heights),
                     (None, _) => things::lay(&mut stage, &mut self.floors, wish, bundle),
-                    (Some(sort), _) => textiles::throw(&mut stage, &mut self.floors, wish, bundle, sort),
+                    (Some(sort), _) => cloth::throw(&mut stage, &mut self.floors, wish, bundle, sort),
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! Things that are put down: on tables, seats and beds, on top of cupboards, and on floors beside, below and along what stands there.
 
-use super::Wish;
 use super::stage::{Bundle, Stage, middle};
 use super::table::At;
+use super::wish::Wish;
 use crate::place::Floor;
 use crate::room::{Footprint, Room};
 use enfilade_furniture::meet::Body;

@@ -1,7 +1,7 @@
 //! Walls: free pieces of them, and what people hang there themselves.
 
-use super::Wish;
 use super::stage::{Bundle, Stage, middle};
+use super::wish::Wish;
 use crate::place::Floor;
 use crate::room::{Footprint, Room, Wall};
 use crate::shell::is_shell;

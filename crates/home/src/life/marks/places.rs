@@ -2,7 +2,7 @@
 
 use super::super::stage::Stage;
 use super::super::walls;
-use super::{On, Row};
+use super::table::{On, Row};
 use crate::room::{Footprint, Room};
 use crate::shell::is_shell;
 use enfilade_furniture::meet::Body;
