@@ -68,7 +68,7 @@ options! {
         ///
         /// It is day in three of five homes, evening or night in the others.
         pub moment: Option<Moment> = None,
-        /// Density of small things: 0 leaves only the contents of shelves and cabinets, 1 looks lived in, 2 is untidy.
+        /// Density of small things: 0 leaves only the contents of shelves and cabinets, 2 is crowded.
         pub clutter: f32 = 1.0,
         /// How much people have left lying and moved, 0 to 1: at 0 rooms are as if nobody lived there, at 1 untidy.
         ///

@@ -107,7 +107,7 @@ impl Furniture for PowerStrip {
             b.part(&strip, "plugs", all((0..self.used).map(plug)), if rng.below(2) == 0 { finish } else { other });
         }
         let from = middle - 0.5 * long + 0.01;
-        let length = from + 0.5 * self.size().y;
+        let length = from + 0.5 * self.size().y - 0.004;
         let cord = wire(&bends(length, 0.16, r, rng), r, 8).moved(Vec3::new(0.0, from - 0.5 * length, 0.0));
         b.part(&strip, "cord", cord.deformed(|p| Vec3::new(p.x, p.y, p.z.max(0.0))).smoothed(50.0), finish);
     }
