@@ -43,9 +43,9 @@ impl Mark {
             Self::Scuffs => {
                 let streaks = noise(Vec2::new(uv.x * 5.0, uv.y * 26.0 + 2.0 * uneven), [5, 26], seed ^ 3);
                 let gaps = fbm(uv, [9, 4], 3, seed ^ 5);
-                smoothstep(0.34, 0.75, streaks) * smoothstep(-0.25, 0.25, gaps) * (1.0 - smoothstep(0.5, 1.0, p.length()))
+                smoothstep(0.34, 0.75, streaks) * smoothstep(-0.25, 0.25, gaps) * (1.0 - smoothstep(0.5, 1.0, p.length())) * inside
             }
-            Self::Grime => round * (0.55 + 0.45 * fbm(uv, [11, 11], 3, seed ^ 7)).clamp(0.0, 1.0),
+            Self::Grime => round * inside * (0.55 + 0.45 * fbm(uv, [11, 11], 3, seed ^ 7)).clamp(0.0, 1.0),
             Self::Patch => {
                 let edge = border + 0.10 * fbm(uv, [14, 14], 3, seed ^ 9);
                 let strokes = 0.8 + 0.2 * noise(Vec2::new(uv.x * 3.0, uv.y * 40.0), [3, 40], seed ^ 11);
