@@ -2,11 +2,11 @@
 
 use crate::joint::{Joint, Jointed};
 use crate::lamplight::Glow;
-use crate::materials::{Materials, Surfacing};
+use crate::materials::{Finish, Materials, Surfacing};
 use crate::models::{Body, Model};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec3, Rgb};
+use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
 use enfilade_scene::{BodyMotion, Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -91,6 +91,24 @@ pub struct Builder {
 pub(crate) struct Loaned {
     pub meshes: Vec<u32>,
     pub materials: Vec<u32>,
+}
+
+/// A screen whose texture coordinates run over the unit square, upright as seen from its front: a flat mesh that faces +y, or lies on its
+/// back.
+fn unit_square(mut mesh: Mesh) -> Mesh {
+    let (low, high) = mesh.uvs.iter().fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), uv| (low.min(*uv), high.max(*uv)));
+    if low == Vec2::ZERO && high == Vec2::ONE {
+        return mesh;
+    }
+    let bounds = mesh.bounds();
+    let extent = bounds.extent().max(Vec3::splat(1e-6));
+    let upright = extent.y < extent.z;
+    let uv = |p: Vec3| {
+        let q = (p - bounds.min) / extent;
+        if upright { Vec2::new(1.0 - q.x, q.z) } else { Vec2::new(q.x, q.y) }
+    };
+    mesh.uvs = mesh.positions.iter().map(|p| uv(*p)).collect();
+    mesh
 }
 
 /// The pose at (x, y, z), turned by `yaw` radians about the vertical.
@@ -222,6 +240,20 @@ impl Builder {
         self.part(object, name, mesh, material);
     }
 
+    /// The scene so far.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Turns a screen on that is there already: its part gets this finish, its texture coordinates run over the unit square.
+    pub fn turn_on(&mut self, part: usize, finish: Finish) {
+        let material = self.materials.get(&mut self.scene, finish);
+        let shown = unit_square((*self.scene.meshes[self.scene.parts[part].mesh as usize]).clone());
+        let mesh = self.mesh(shown);
+        let part = &mut self.scene.parts[part];
+        (part.material, part.mesh) = (material, mesh);
+    }
+
     /// Number of parts.
     pub fn part_count(&self) -> usize {
         self.scene.parts.len()
@@ -267,5 +299,25 @@ impl Builder {
             self.scene.meshes.push(mesh.into());
             self.scene.meshes.len() - 1
         }) as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::bevelled_box;
+
+    #[test]
+    fn a_screen_shows_its_picture_upright_and_whole() {
+        // Seen from +y, the left edge of an upright screen is at +x.
+        for (size, left_top) in
+            [(Vec3::new(1.0, 0.02, 0.6), Vec3::new(0.5, 0.0, 0.3)), (Vec3::new(0.1, 0.2, 0.01), Vec3::new(-0.05, 0.1, 0.0))]
+        {
+            let mesh = unit_square(bevelled_box(size, 0.001));
+            let nearest = (0..mesh.positions.len())
+                .min_by(|&a, &b| mesh.positions[a].distance(left_top).total_cmp(&mesh.positions[b].distance(left_top)));
+            assert!(mesh.uvs[nearest.unwrap()].distance(Vec2::new(0.0, 1.0)) < 0.02);
+            assert_eq!(unit_square(mesh.clone()), mesh);
+        }
     }
 }

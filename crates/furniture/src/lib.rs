@@ -3,7 +3,7 @@
 //! From the bottom up: [`shape`] makes meshes; [`Materials`] and [`Palette`] are what things are made of, [`LampLight`] is the brightness
 //! of lights; `pieces` has one file per family of things, which [`FAMILIES`] lists; [`Builder`] names, labels and collects their parts.
 //! [`models`] are things that others have made, from which [`assets`] takes those that may replace ours. [`meet`] and [`touch`] test
-//! whether things run into each other.
+//! whether things run into each other; [`cloth`] falls on things and comes to rest.
 //!
 //! ```
 //! use enfilade_furniture::{Builder, LampLight, Materials, Palette, family_named, pose};
@@ -20,6 +20,7 @@
 
 pub mod assets;
 mod builder;
+pub mod cloth;
 mod joint;
 mod lamplight;
 mod materials;
@@ -43,6 +44,7 @@ pub use pieces::bedroom::Bed;
 pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
 pub use pieces::gym;
 pub use pieces::kitchen;
+pub use pieces::left::left_thing;
 pub use pieces::living::{Blind, BlindKind, CeilingLamp};
 pub use pieces::office;
 pub use pieces::school;

@@ -68,8 +68,15 @@ options! {
         ///
         /// It is day in three of five homes, evening or night in the others.
         pub moment: Option<Moment> = None,
-        /// Density of small things: 0 leaves only the contents of shelves and cabinets, 1 looks lived in, 2 is untidy.
+        /// Density of small things: 0 leaves only the contents of shelves and cabinets, 2 is crowded.
         pub clutter: f32 = 1.0,
+        /// How much people have left lying and moved, 0 to 1: at 0 rooms are as if nobody lived there, at 1 untidy.
+        ///
+        /// Beds that are unmade, clothes and blankets thrown over chairs and sofas, dishes after a meal, bags, shoes, boxes, cables, post,
+        /// toys, chairs pulled out, cushions askew, screens that are on. What lies about is multiplied by `clutter`. It leaves rooms, walls
+        /// and furniture as they are without it.
+        #[serde(skip_serializing_if = "is_half")]
+        pub lived_in: f32 = 0.5 => named("SHARE"),
         /// What is open: `made`, `closed`, `open`, `random`, or, in files, a share of the range, or a table of these by name.
         ///
         /// Furniture has an inside and joints where it is given; without it, homes are those of earlier versions, in which nothing can be
@@ -95,6 +102,12 @@ options! {
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
 fn is_one(share: &f32) -> bool {
     *share == 1.0
+}
+
+/// As [`is_one`].
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde wants it")]
+fn is_half(share: &f32) -> bool {
+    *share == 0.5
 }
 
 /// As [`is_one`].
@@ -128,6 +141,9 @@ impl HomeConfig {
         }
         if !(0.0..=4.0).contains(&self.clutter) {
             return Some(format!("clutter must lie between 0 and 4, found {}", self.clutter));
+        }
+        if !(0.0..=1.0).contains(&self.lived_in) {
+            return Some(format!("lived_in must lie between 0 and 1, found {}", self.lived_in));
         }
         if !(0.0..=1.0).contains(&self.realism) {
             return Some(format!("realism must lie between 0 and 1, found {}", self.realism));

@@ -155,7 +155,7 @@ fn directions() -> impl Iterator<Item = Vec3> {
 }
 
 /// The smallest height of triangles above those below them where both cover the same ground, if it is less than `limit`; 0 where they cut.
-fn height_between(above: &[Triangle], below: &[Triangle], limit: f32) -> Option<f32> {
+pub(crate) fn height_between(above: &[Triangle], below: &[Triangle], limit: f32) -> Option<f32> {
     let left = |t: &Triangle| t[0].x.min(t[1].x).min(t[2].x);
     let mut sorted: Vec<&Triangle> = below.iter().collect();
     sorted.sort_by(|s, t| left(s).total_cmp(&left(t)));

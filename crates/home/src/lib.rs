@@ -2,8 +2,8 @@
 //!
 //! [`home()`] is a function of its [`HomeConfig`] alone. From the bottom up: `plan` lays out rooms, [`room`] and `shell` are their walls;
 //! `place` decides what fits where, `rooms` furnishes each kind of room with things of the crate `enfilade-furniture`. Objects with a fault
-//! that [`check`] would find are moved until they rest on something and run into nothing, or removed where that fails. [`light`] is the
-//! hour, the sky and the surroundings outside.
+//! that [`check`] would find are moved until they rest on something and run into nothing, or removed where that fails. `life` is what people
+//! have left lying and moved in rooms that are furnished. [`light`] is the hour, the sky and the surroundings outside.
 //!
 //! ```
 //! use enfilade_home::check::faults;
@@ -25,6 +25,7 @@ mod gravity;
 mod home;
 mod joint;
 mod lacks;
+mod life;
 pub mod light;
 mod open;
 mod place;
@@ -117,15 +118,19 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     if config.states.is_some() {
         builder = builder.with_joints();
     }
-    rooms::furnish(&mut builder, &plan, &decor, config, library);
+    let rooms = rooms::furnish(&mut builder, &plan, &decor, config, library);
+    let life = life::Life::bring(&mut builder, &plan, &decor, config, rooms);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
     let jointed = builder.joints().to_vec();
-    let (scene, labels) = builder.finish();
+    let (mut scene, mut labels) = builder.finish();
+    let waiting = life.take(&mut scene, &mut labels);
     let joints = jointed.iter().filter_map(|jointed| HomeJoint::new(jointed, &scene)).collect();
     let (removed, moved, credits, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut home = Home { scene, labels, plan, fronts, removed, moved, credits, notes, joints, state_notes: Vec::new() };
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
+    life.live(&mut home, &waiting);
+    settle::tidy(&mut home);
     if let Some(states) = &config.states {
         open::open(&mut home, states, &config.stream(None, 8));
     }

@@ -45,6 +45,10 @@ pub fn settle(home: &mut Home) {
     scene.remove_parts(&is_gone);
     home.joints.retain(|joint| !gone.contains(object_of(&joint.body)));
     home.moved = moved.into_iter().filter(|(object, _)| !gone.contains(object.as_str())).map(|(object, by)| Shift { object, by }).collect();
+}
+
+/// Numbers instances without gaps, and drops what no part uses any more.
+pub fn tidy(home: &mut Home) {
     number_instances(home);
     drop_unused(home);
 }

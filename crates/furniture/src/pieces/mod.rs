@@ -30,6 +30,7 @@ mod joint_tests;
 pub mod kitchen;
 mod lamp;
 pub mod laundry;
+pub mod left;
 pub mod living;
 pub mod office;
 mod opening;

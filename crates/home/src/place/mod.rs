@@ -25,6 +25,8 @@ const AIR: f32 = 0.02;
 const HEADROOM: f32 = 2.0;
 /// People step over what is lower than this, metres.
 const UNDERFOOT: f32 = 0.03;
+/// Things on the floor that are lower than this are stepped over, and drawers and doors open above them, metres.
+const LYING: f32 = 0.11;
 /// Distance between a window and things higher than its sill, metres.
 const BEFORE_WINDOW: f32 = 0.22;
 /// Length of a window's sill beyond each side, metres.
@@ -154,6 +156,24 @@ impl Floor {
     /// True where nothing is yet and nothing need be kept free.
     pub fn is_free(&self, footprint: &Footprint, z: [f32; 2]) -> bool {
         !self.taken.iter().any(|t| z[0] < t.z[1] && t.z[0] < z[1] && t.footprint.meets(footprint, 0.0))
+    }
+
+    /// Takes the place of something that is left lying or standing on the floor; false, and nothing is taken, where doors swing, where
+    /// ways would be closed, or, for what is not `tucked` below or beside other things, where people stand who open and use something.
+    pub fn leave(&mut self, footprint: &Footprint, height: f32, tucked: bool) -> bool {
+        let kept = |t: &&Taken| !t.solid && (t.z[0] == 0.0 || !tucked && t.z[0] == UNDERFOOT && height > LYING);
+        if self.taken.iter().filter(kept).any(|t| t.footprint.meets(footprint, 0.0)) {
+            return false;
+        }
+        if height > LYING {
+            let mut walk = self.walk.clone();
+            walk.block(footprint);
+            if !walk.is_open(&self.fronts) {
+                return false;
+            }
+            self.walk = walk;
+        }
+        true
     }
 
     /// Spots along all walls for something `width` wide, its ends included.

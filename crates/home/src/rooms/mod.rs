@@ -38,21 +38,24 @@ mod wishes;
 pub use furnisher::Furnisher;
 
 use crate::HomeConfig;
+use crate::life::Furnished;
 use crate::plan::FloorPlan;
 use crate::room::kind;
 use crate::shell::{self, ShellFinish};
 use enfilade_furniture::assets::Library;
 use enfilade_furniture::{Builder, DecorConfig, RoomKind};
 
-/// Builds all rooms of a home and what is in them.
-pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig, library: &Library) {
+/// Builds all rooms of a home and what is in them; returns the parts and the floor of each.
+pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig, library: &Library) -> Vec<Furnished> {
     let furniture = config.stream(config.furniture, 3);
     let (shape, look) = (config.stream(config.layout, 5), config.stream(config.materials, 6));
     let home = decor.palette();
+    let mut rooms = Vec::new();
     for (i, room) in plan.rooms.iter().enumerate() {
         let palette = decor.room(&home, i as u64);
         let palette = if kind::row(room.kind).shell.pale { palette.with_pale_walls() } else { palette };
         b.enter_room(palette, room.windows().next().is_none());
+        let first = b.part_count();
         let mut f = Furnisher::new(b, plan, room, &palette, library, config.clutter, furniture.fork(i as u64));
         // Things that belong to the room whoever lives in it come first, then the furniture of its kind of room, then extras that still
         // fit.
@@ -62,11 +65,13 @@ pub fn furnish(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &
         f.sockets();
         // The shell is built last, because it depends on the furniture: the accent wall is behind certain things, and there is no skirting
         // behind built-in ones.
-        let (accent, built_in) = (f.accent, std::mem::take(&mut f.built_in));
+        let (accent, built_in, floor) = (f.accent, std::mem::take(&mut f.built_in), f.floor.clone());
+        rooms.push(Furnished { parts: first..f.b.part_count(), floor });
         let mut shape = shape.fork(i as u64);
         let finish = ShellFinish::usual(room.kind, accent, &mut shape, &mut look.fork(i as u64));
         shell::build(b, room, &finish, &built_in, &mut shape);
     }
+    rooms
 }
 
 /// Furnishes one room.

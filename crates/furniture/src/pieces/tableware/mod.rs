@@ -10,6 +10,7 @@ mod pantry;
 mod produce;
 
 pub use cookware::{Cookware, CuttingBoard, KnifeBlock, UtensilJar};
+pub(super) use crockery::plate;
 pub use crockery::{Crockery, shelf_of_crockery};
 pub use cutlery::{Piece, PlaceSetting};
 pub use glass::Drinkware;
