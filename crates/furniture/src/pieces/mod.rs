@@ -10,6 +10,8 @@ mod boards;
 mod book;
 mod bookshelf;
 mod catalogue;
+#[cfg(test)]
+mod catalogue_tests;
 mod ceiling_dome;
 mod chair;
 pub mod children;
@@ -41,12 +43,16 @@ mod plant;
 mod radiator;
 mod rug;
 pub mod school;
+mod seating;
 pub mod shop;
 mod side_table;
 mod sofa;
 pub mod soft;
 pub mod store;
 pub mod study;
+mod style;
+#[cfg(test)]
+mod style_tests;
 #[cfg(test)]
 mod surface_tests;
 pub mod tableware;
