@@ -33,6 +33,7 @@ pub mod kitchen;
 mod lamp;
 pub mod laundry;
 pub mod living;
+mod low_table;
 pub mod office;
 mod opening;
 mod ornament;

@@ -6,8 +6,11 @@ mod bedding;
 mod clothes;
 mod drawers;
 mod dressing;
+mod frames;
 mod garment;
+mod upholstered;
 mod wardrobe;
+mod wooden;
 
 pub use bed::Bed;
 pub use clothes::{FoldedClothes, hang_garment};

@@ -3,7 +3,7 @@
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
 use crate::pieces::form::turned;
-use crate::shape::{Reshape, rounded_box};
+use crate::shape::{Reshape, bendable_box, rounded_box};
 use enfilade_math::Vec3;
 use std::f32::consts::FRAC_PI_2;
 
@@ -64,7 +64,9 @@ impl Arms {
             let at = Vec3::new(s * (span.inner + 0.5 * span.wide), 0.5 * (y0 + y1), 0.5 * (z0 + z1));
             let mut block = rounded_box(size, round, 3);
             if self == Self::Flared {
-                block = block.deformed(|p| p + Vec3::X * s * FLARE * (p.z / size.z + 0.5).clamp(0.0, 1.0).powi(2)).smoothed(60.0);
+                block = bendable_box(size, round, [1, 1, 6])
+                    .deformed(|p| p + Vec3::X * s * FLARE * (p.z / size.z + 0.5).clamp(0.0, 1.0).powi(2))
+                    .smoothed(60.0);
             }
             b.part(object, name, block.moved(at), cover);
             if self == Self::Rolled {
@@ -85,7 +87,7 @@ impl Arms {
             if self == Self::Wings {
                 let (depth, low) = (0.3, z1 - 0.06);
                 let height = span.top - low;
-                let wing = rounded_box(Vec3::new(0.09, depth, height), 0.035, 4).deformed(|p| {
+                let wing = bendable_box(Vec3::new(0.09, depth, height), 0.035, [1, 4, 8]).deformed(|p| {
                     // Towards its upper end the front edge curves back.
                     let up = (p.z / height + 0.5).clamp(0.0, 1.0);
                     let front = (p.y / depth + 0.5).clamp(0.0, 1.0);

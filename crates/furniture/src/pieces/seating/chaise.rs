@@ -7,7 +7,7 @@ use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::CONTACT;
 use crate::pieces::form::turned;
-use crate::shape::{Reshape, padded_box, rounded_box};
+use crate::shape::{Reshape, bendable_box, padded_box, rounded_box};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
@@ -62,7 +62,7 @@ impl ChaiseLongue {
         b.part(&object, "base", base.moved(Vec3::new(0.0, 0.0, 0.5 * (SEAT - 0.1 + LEG))), self.cover);
         // The end leans outward, and a roll closes it.
         let (wide, high) = (0.12, TOP - ROLL - SEAT + 0.11);
-        let end = rounded_box(Vec3::new(wide, DEPTH - 0.004, high), 0.04, 4);
+        let end = bendable_box(Vec3::new(wide, DEPTH - 0.004, high), 0.04, [1, 1, 6]);
         let end = end.deformed(|p| p + Vec3::X * s * 0.05 * (p.z / high + 0.5).powi(2)).smoothed(60.0);
         let x = s * (half - 0.135);
         b.part(&object, "end", end.moved(Vec3::new(x, 0.0, SEAT - 0.11 + 0.5 * high)), self.cover);
