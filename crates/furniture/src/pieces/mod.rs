@@ -83,6 +83,6 @@ pub use radiator::Radiator;
 pub use rug::Rug;
 pub use side_table::SideTable;
 pub use sofa::Sofa;
-pub use television::TelevisionBench;
+pub use television::{TelevisionBench, TelevisionSet};
 pub use wall_art::{Mirror, PictureOnWall};
 pub use window::Window;

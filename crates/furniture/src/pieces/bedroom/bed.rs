@@ -131,7 +131,7 @@ impl Bed {
         match self.frame {
             BedFrame::Panel | BedFrame::Slats | BedFrame::Metal | BedFrame::Platform => BOARD,
             BedFrame::Upholstered | BedFrame::BoxSpring | BedFrame::Buttoned | BedFrame::Winged => PADDED,
-            BedFrame::Divan => 0.005,
+            BedFrame::Divan => 0.03,
             BedFrame::Rattan | BedFrame::Iron | BedFrame::Sided => 0.055,
             BedFrame::FourPoster | BedFrame::Bunk => 0.08,
             BedFrame::Sleigh => 0.2,
@@ -188,7 +188,8 @@ impl Furniture for Bed {
     fn size(&self) -> Vec3 {
         // Covers hang around most frames, and what stands around the others is within the same space.
         let cover = 2.0 * (OUT + 0.17);
-        Vec3::new(self.width + cover, self.length + self.head_depth() + 0.5 * cover + 0.005, self.height())
+        let foot = if self.frame == BedFrame::Sleigh { 0.08 } else { 0.0 };
+        Vec3::new(self.width + cover, self.length + self.head_depth() + 0.5 * cover + foot + 0.005, self.height())
     }
 
     fn reach(&self) -> f32 {
@@ -222,7 +223,9 @@ impl Furniture for Bed {
         }
         if self.frame == BedFrame::Bunk {
             let upper = Bedding { base: frames::BUNKS[1], cushions: 0, throw: false, ..self.bedding() };
-            upper.build(b, &bed, pose, rng);
+            // What lies on the upper bed is an object of its own: names of parts are unique.
+            let above = b.object("bed", Class::Bed, pose);
+            upper.build(b, &above, pose, rng);
         }
         self.bedding().build(b, &bed, pose, rng);
     }

@@ -28,6 +28,13 @@ pub struct CornerSofa {
 const DEPTH: f32 = 0.95;
 /// Width of the chaise, metres.
 const CHAISE: f32 = 0.92;
+
+impl CornerSofa {
+    /// The floor before the long side: its middle beside the middle of the sofa, its width, and its distance from the back.
+    pub fn before(&self) -> [f32; 3] {
+        [-0.5 * CHAISE * self.side, self.width - CHAISE, DEPTH]
+    }
+}
 /// Width of the arm, metres.
 const ARM: f32 = 0.2;
 /// Thickness of the back, metres.

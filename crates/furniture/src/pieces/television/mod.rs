@@ -61,13 +61,6 @@ const DEPTH: f32 = 0.40;
 /// Distance of a set from either end of its cabinet at least, metres.
 const ASIDE: f32 = 0.05;
 
-impl TelevisionBench {
-    /// Width of the set, if one stands on the cabinet.
-    pub fn screen(&self) -> f32 {
-        self.set.map_or(0.0, |set| set.width)
-    }
-}
-
 impl Furniture for TelevisionBench {
     fn random(rng: &mut Rng) -> Self {
         let (style, [low, high], top) = drawn(STYLES, rng);
