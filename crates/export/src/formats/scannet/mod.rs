@@ -153,21 +153,45 @@ fn about(track: &Track, calibration: &Calibration, rooms: Option<&Rooms>) -> Str
     text
 }
 
-/// ScanNet's word for what the rooms of a scene are.
+/// ScanNet's word for what the rooms of a scene are: that of the only room, or of all of them in a public building; several rooms of a home
+/// are an apartment.
 fn scene_type(rooms: Option<&Rooms>) -> &'static str {
-    match rooms.map(|rooms| rooms.outlines.as_slice()) {
-        Some([room]) => match room.kind.as_str() {
-            "bathroom" | "toilet" => "Bathroom",
-            "bedroom" | "childrens" => "Bedroom / Hotel",
-            "dining" => "Dining Room",
-            "hall" => "Hallway",
-            "kitchen" => "Kitchen",
-            "laundry" => "Laundry Room",
-            "living" => "Living room / Lounge",
-            "study" => "Office",
-            _ => "Misc.",
-        },
-        Some([_, _, ..]) => "Apartment",
-        _ => "Misc.",
+    let mut words = rooms.iter().flat_map(|rooms| &rooms.outlines).map(|room| room_type(&room.kind));
+    let Some((first, at_home)) = words.next() else { return MISC };
+    let others: Vec<_> = words.collect();
+    match others.as_slice() {
+        [] => first,
+        _ if at_home && others.iter().all(|(_, at_home)| *at_home) => "Apartment",
+        _ if others.iter().all(|(word, _)| *word == first) => first,
+        _ => MISC,
+    }
+}
+
+/// ScanNet's word where none fits.
+const MISC: &str = "Misc.";
+
+/// ScanNet's word for a kind of room, and whether homes have such rooms; kinds that are not known count among those.
+fn room_type(kind: &str) -> (&'static str, bool) {
+    match kind {
+        "bathroom" | "toilet" => ("Bathroom", true),
+        "bedroom" | "childrens" => ("Bedroom / Hotel", true),
+        "dining" => ("Dining Room", true),
+        "hall" => ("Hallway", true),
+        "kitchen" => ("Kitchen", true),
+        "laundry" => ("Laundry Room", true),
+        "living" => ("Living room / Lounge", true),
+        "study" => ("Office", true),
+        "hotel_room" => ("Bedroom / Hotel", false),
+        "office" | "open_office" => ("Office", false),
+        "meeting" => ("Conference Room", false),
+        "classroom" => ("Classroom", false),
+        "computer_lab" => ("ComputerCluster", false),
+        "corridor" => ("Hallway", false),
+        "library" | "bookshop" => ("Bookstore / Library", false),
+        "reception" => ("Lobby", false),
+        "gym" => ("Gym", false),
+        "storeroom" => ("Storage/Basement/Garage", false),
+        "cafe" | "shop" | "workshop" => (MISC, false),
+        _ => (MISC, true),
     }
 }

@@ -38,11 +38,11 @@ impl Bentwood {
         b.part(&chair, "seat", place(panel), if self.woven { Finish::Wicker } else { self.finish });
         let mut frame = Vec::new();
         for s in [-1.0f32, 1.0] {
-            let front = [Vec3::new(s * 0.185, 0.2, 0.0), Vec3::new(s * 0.15, 0.145, 0.3), Vec3::new(s * 0.135, 0.13, SEAT - 0.03)];
+            let front = [Vec3::new(s * 0.17, 0.185, 0.0), Vec3::new(s * 0.148, 0.15, 0.3), Vec3::new(s * 0.135, 0.13, SEAT - 0.03)];
             frame.push(standing(tube(&front, 0.0145, 14)));
         }
         // The rear legs and the back are one rod.
-        let half = [[0.19, -0.235, 0.0], [0.172, -0.17, 0.3], [0.17, -0.135, SEAT - 0.02], [0.19, -0.175, 0.66], [0.15, -0.225, 0.83]];
+        let half = [[0.175, -0.21, 0.0], [0.158, -0.165, 0.3], [0.165, -0.135, SEAT - 0.02], [0.19, -0.175, 0.66], [0.15, -0.225, 0.83]];
         let mut path: Vec<[f32; 3]> = half.to_vec();
         path.push([0.0, -0.24, 0.882]);
         path.extend(half.iter().rev().map(|[x, y, z]| [-x, *y, *z]));
@@ -53,7 +53,7 @@ impl Bentwood {
         frame.push(wire(&path, 0.009, 12));
         // The inner hoop is fixed to the outer one by two short pieces.
         frame.extend([-1.0f32, 1.0].map(|s| rod([s * 0.095, -0.181, 0.63], [s * 0.188, -0.171, 0.645], 0.006, 8)));
-        let brace = tube(&rounded_loop(0.478, 0.478, 0.2389, 14), 0.009, 10).moved(Vec3::new(0.0, -0.015, 0.235));
+        let brace = tube(&rounded_loop(0.43, 0.43, 0.2149, 14), 0.009, 10).moved(Vec3::new(0.0, -0.01, 0.235));
         frame.push(brace);
         b.part(&chair, "frame", grained(all(frame), rng), self.finish);
     }

@@ -68,7 +68,14 @@ impl Upholstered {
         let seats = low + rng.below(high - low + 1);
         let pillows = if seats == 1 { rng.below(2) } else { rng.below(5) };
         let cover = style.covers[rng.below(style.covers.len())];
-        Self { style, seats, seat_width: rng.range(style.wide[0], style.wide[1]), cover, pillows }
+        let seat_width = rng.range(style.wide[0], style.wide[1]);
+        // Cushions stand side by side: two at the ends, then more where there is room between these.
+        let room = match seats as f32 * seat_width {
+            ..1.3 => 2,
+            1.3..1.72 => 3,
+            _ => 4,
+        };
+        Self { style, seats, seat_width, cover, pillows: pillows.min(room) }
     }
 
     fn inner(&self) -> f32 {
