@@ -4,7 +4,7 @@ use super::Furnisher;
 use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
 use crate::place::Piece;
 use enfilade_furniture::office::WallDisplay;
-use enfilade_furniture::{Bed, Furniture, Surface, TableLamp};
+use enfilade_furniture::{Bed, Furniture, Surface, TableLamp, TelevisionSet};
 use enfilade_math::Vec2;
 
 /// Distance between a bed and the things beside it, metres.
@@ -51,7 +51,7 @@ pub fn furnish(f: &mut Furnisher) {
 
 /// In three of ten bedrooms a television hangs opposite the bed.
 fn television(f: &mut Furnisher) {
-    let display = WallDisplay { width: f.rng.range(0.7, 1.15), shows: f.chance(0.5).then(|| f.rng.below(4) as u8) };
+    let display = WallDisplay { width: f.rng.range(0.7, 1.15), shows: TelevisionSet::shown(&mut f.rng) };
     let Some(wall) = f.accent.filter(|_| f.chance(0.3)) else { return };
     let opposite = f.room.face(wall).opposite;
     f.hang(&display, 1.35, &[opposite], |_, s| s.x.abs());

@@ -95,7 +95,7 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
 /// The cabinet with its television: one in four is on the wall above it, where that is free.
 fn television(f: &mut Furnisher, bench: &TelevisionBench, wall: Wall, pose: DAffine3) {
     let width = f.rng.range(0.9, 1.35).min(bench.width);
-    let display = WallDisplay { width, shows: f.chance(0.5).then(|| f.rng.below(4) as u8) };
+    let display = WallDisplay { width, shows: TelevisionSet::shown(&mut f.rng) };
     let at = pose.translation.truncate().as_vec2();
     let above = |_: &crate::place::Floor, s: &Spot| {
         let aside = (s.origin - at).dot(s.front().perp()).abs();

@@ -88,6 +88,12 @@ const UNDER: f32 = 0.062;
 const FLAT: f32 = 0.035;
 
 impl TelevisionSet {
+    /// What a television in a home shows, for [`Finish::ScreenOn`]: half of them are off, the others show landscapes or a home page.
+    pub fn shown(rng: &mut Rng) -> Option<u8> {
+        let picture = [0, 4, 8, 3][rng.below(4)];
+        (rng.below(2) == 0).then_some(picture)
+    }
+
     /// Width and height of the screen.
     pub fn screen(&self) -> [f32; 2] {
         let width = self.width - 2.0 * self.bezel;
@@ -202,7 +208,7 @@ impl TelevisionSet {
             width: rng.range(style.width[0], style.width[1]),
             bezel: rng.range(style.bezel[0], style.bezel[1]),
             finish: style.finishes[rng.below(style.finishes.len())],
-            shows: (rng.below(2) == 0).then(|| rng.below(4) as u8),
+            shows: Self::shown(rng),
         }
     }
 }
