@@ -10,6 +10,7 @@ use crate::materials::Finish;
 use crate::shape::{Reshape, lathe};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
+use std::f32::consts::FRAC_1_SQRT_2;
 
 /// What a small table stands on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,7 +124,7 @@ impl DiningTable {
                     [0.0, under],
                 ];
                 let feet = corners(Vec2::ONE).map(|d| {
-                    let at = |r: f32, z: f32| [d.x * r * 0.7071, d.y * r * 0.7071, z];
+                    let at = |r: f32, z: f32| [d.x * r * FRAC_1_SQRT_2, d.y * r * FRAC_1_SQRT_2, z];
                     standing(wire(&[at(0.02, 0.16), at(0.14, 0.15), at(0.7 * reach, 0.06), at(reach, 0.02)], 0.024, 12))
                 });
                 vec![("column", turned(&column, 36)), ("feet", all(feet))]
