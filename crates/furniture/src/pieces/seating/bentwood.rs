@@ -39,7 +39,7 @@ impl BentwoodChair {
 
     /// Size of the box around it.
     pub fn size(&self) -> Vec3 {
-        Vec3::new(2.0 * HALF, 0.9, if self.low { 0.86 } else { 1.04 })
+        Vec3::new(2.0 * HALF, 0.9, if self.low { 0.92 } else { 1.04 })
     }
 
     /// Adds its parts, as an object of `family`.
@@ -55,7 +55,7 @@ impl BentwoodChair {
             b.part(&object, name, grained(mesh, rng), self.wood);
         }
         let line = smooth(&LINE);
-        let end = if self.low { line.len() * 4 / 5 } else { line.len() };
+        let end = if self.low { line.len() - 2 } else { line.len() };
         let line = &line[..end];
         let below: Vec<Vec2> = line.iter().enumerate().map(|(k, p)| *p - normal(line, k) * 0.045).collect();
         for (name, s) in [("rail_left", -1.0f32), ("rail_right", 1.0)] {
