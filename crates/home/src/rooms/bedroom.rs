@@ -1,10 +1,10 @@
 //! The bedroom: a bed with room on both sides, and a place for clothes.
 
 use super::Furnisher;
+use super::television;
 use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
 use crate::place::Piece;
-use enfilade_furniture::office::WallDisplay;
-use enfilade_furniture::{Bed, Furniture, Surface, TableLamp, TelevisionSet};
+use enfilade_furniture::{Bed, Furniture, Surface, TableLamp};
 use enfilade_math::Vec2;
 
 /// Distance between a bed and the things beside it, metres.
@@ -40,21 +40,13 @@ pub fn furnish(f: &mut Furnisher) {
     f.perhaps(0.4, "laundry_basket", tucked_away);
     f.perhaps(0.6, "plant", by_window);
     f.hang_one(0.5, "mirror", 1.5, in_view);
-    television(f);
+    television::before_bed(f);
     f.art(3, |_, s| s.x.abs());
     f.hang_one(0.45, "wall_shelf", 1.55, |_, s| s.x.abs());
     f.hang_plant(0.25);
     // Slippers.
     f.perhaps(0.7, "shoes", |floor, s| floor.to_window(s.origin));
     f.ceiling_lamp();
-}
-
-/// In three of ten bedrooms a television hangs opposite the bed.
-fn television(f: &mut Furnisher) {
-    let display = WallDisplay { width: f.rng.range(0.7, 1.15), shows: TelevisionSet::shown(&mut f.rng) };
-    let Some(wall) = f.accent.filter(|_| f.chance(0.3)) else { return };
-    let opposite = f.room.face(wall).opposite;
-    f.hang(&display, 1.35, &[opposite], |_, s| s.x.abs());
 }
 
 /// Places a bed for one or two `sleepers`, with nightstands on both sides, on one, or none, as space allows; false where no bed fits.

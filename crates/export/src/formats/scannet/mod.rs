@@ -149,14 +149,15 @@ fn about(track: &Track, calibration: &Calibration, rooms: Option<&Rooms>) -> Str
         let _ = writeln!(text, "{key}_color = {value}\n{key}_depth = {value}");
     }
     let _ = writeln!(text, "numColorFrames = {0}\nnumDepthFrames = {0}\nnumIMUmeasurements = 0", track.chosen.len());
-    let _ = writeln!(text, "sceneType = {}", scene_type(rooms));
+    let kinds = rooms.iter().flat_map(|rooms| &rooms.outlines).map(|room| room.kind.as_str());
+    let _ = writeln!(text, "sceneType = {}", scene_type(kinds));
     text
 }
 
 /// ScanNet's word for what the rooms of a scene are: that of the only room, or of all of them in a public building; several rooms of a home
 /// are an apartment.
-fn scene_type(rooms: Option<&Rooms>) -> &'static str {
-    let mut words = rooms.iter().flat_map(|rooms| &rooms.outlines).map(|room| room_type(&room.kind));
+fn scene_type<'a>(kinds: impl IntoIterator<Item = &'a str>) -> &'static str {
+    let mut words = kinds.into_iter().map(room_type);
     let Some((first, at_home)) = words.next() else { return MISC };
     let others: Vec<_> = words.collect();
     match others.as_slice() {
@@ -193,5 +194,21 @@ fn room_type(kind: &str) -> (&'static str, bool) {
         "storeroom" => ("Storage/Basement/Garage", false),
         "cafe" | "shop" | "workshop" => (MISC, false),
         _ => (MISC, true),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scene_type;
+
+    #[test]
+    fn a_scene_is_what_its_rooms_are() {
+        assert_eq!(scene_type([]), "Misc.");
+        assert_eq!(scene_type(["classroom"]), "Classroom");
+        assert_eq!(scene_type(["kitchen", "hall"]), "Apartment");
+        assert_eq!(scene_type(["library", "bookshop"]), "Bookstore / Library");
+        assert_eq!(scene_type(["office", "meeting"]), "Misc.");
+        // A study is at home, an office is not.
+        assert_eq!(scene_type(["study", "hall"]), "Apartment");
     }
 }

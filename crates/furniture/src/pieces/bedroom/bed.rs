@@ -1,6 +1,6 @@
-//! Beds for one (mattress 90 to 120 cm wide) or two (140 to 180 cm), 200 to 210 cm long, on a frame of the table [`FRAMES`] with a
-//! headboard mostly 92 to 115 cm high; class bed. What lies on them is in `bedding`. The head is at −y; the frame is built in a space whose origin is below the
-//! middle of the mattress.
+//! Beds for one (mattress 90 to 120 cm wide) or two (140 to 180 cm), 200 to 210 cm long, on a frame of the tables [`FRAMES`], most of them
+//! with a headboard 92 to 115 cm high; class bed. What lies on them is in `bedding`. The head is at −y; the frame is built in a space whose
+//! origin is below the middle of the mattress.
 
 use super::bedding::{Bedding, Cover};
 use super::{frames, upholstered};
