@@ -154,16 +154,14 @@ fn about(track: &Track, calibration: &Calibration, rooms: Option<&Rooms>) -> Str
     text
 }
 
-/// ScanNet's word for what the rooms of a scene are: that of the only room, or of all of them in a public building; several rooms of a home
-/// are an apartment.
+/// ScanNet's word for what the rooms of a scene are: that of the only room; several rooms of a home are an apartment. In other buildings it
+/// is that of the rooms that homes do not have, if they have one.
 fn scene_type<'a>(kinds: impl IntoIterator<Item = &'a str>) -> &'static str {
-    let mut words = kinds.into_iter().map(room_type);
-    let Some((first, at_home)) = words.next() else { return MISC };
-    let others: Vec<_> = words.collect();
-    match others.as_slice() {
-        [] => first,
-        _ if at_home && others.iter().all(|(_, at_home)| *at_home) => "Apartment",
-        _ if others.iter().all(|(word, _)| *word == first) => first,
+    let (at_home, public): (Vec<_>, Vec<_>) = kinds.into_iter().map(room_type).partition(|(_, at_home)| *at_home);
+    match (at_home.as_slice(), public.as_slice()) {
+        ([(word, _)], []) => word,
+        ([_, _, ..], []) => "Apartment",
+        (_, [(word, _), others @ ..]) if others.iter().all(|(other, _)| other == word) => word,
         _ => MISC,
     }
 }
@@ -208,6 +206,7 @@ mod tests {
         assert_eq!(scene_type(["kitchen", "hall"]), "Apartment");
         assert_eq!(scene_type(["library", "bookshop"]), "Bookstore / Library");
         assert_eq!(scene_type(["office", "meeting"]), "Misc.");
+        assert_eq!(scene_type(["hotel_room", "bathroom"]), "Bedroom / Hotel");
         // A study is at home, an office is not.
         assert_eq!(scene_type(["study", "hall"]), "Apartment");
     }
