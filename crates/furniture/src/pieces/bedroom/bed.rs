@@ -3,7 +3,7 @@
 //! origin is below the middle of the mattress.
 
 use super::bedding::{Bedding, Cover};
-use super::{frames, upholstered};
+use super::{bunk, frames, upholstered};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::pieces::style::drawn;
@@ -151,7 +151,7 @@ impl Bed {
             BedFrame::Sleigh | BedFrame::Iron => [0.26, 0.22, OUT + 0.01, 0.005, 0.22],
             BedFrame::FourPoster => [0.26, 0.24, 0.005, 0.005, 0.22],
             BedFrame::Sided => [0.26, 0.17, 0.005, 0.005, 0.16],
-            BedFrame::Bunk => [frames::BUNKS[0], 0.16, 0.005, 0.005, 0.12],
+            BedFrame::Bunk => [bunk::BUNKS[0], 0.16, 0.005, 0.005, 0.12],
         }
     }
 
@@ -173,7 +173,7 @@ impl Bed {
     fn height(&self) -> f32 {
         match self.frame {
             BedFrame::FourPoster => frames::POSTS + 0.01,
-            BedFrame::Bunk => frames::BUNKS[1] + 0.76,
+            BedFrame::Bunk => bunk::BUNKS[1] + 0.76,
             _ => (self.headboard + 0.12).max(1.22),
         }
     }
@@ -218,11 +218,11 @@ impl Furniture for Bed {
             BedFrame::Platform => frames::platform(self, b, &bed, rng),
             BedFrame::Storage => frames::storage(self, b, &bed, rng),
             BedFrame::Iron => frames::iron(self, b, &bed, rng),
-            BedFrame::Sided => frames::sided(self, b, &bed, rng),
-            BedFrame::Bunk => frames::bunk(self, b, &bed, rng),
+            BedFrame::Sided => bunk::sided(self, b, &bed, rng),
+            BedFrame::Bunk => bunk::bunk(self, b, &bed, rng),
         }
         if self.frame == BedFrame::Bunk {
-            let upper = Bedding { base: frames::BUNKS[1], cushions: 0, throw: false, ..self.bedding() };
+            let upper = Bedding { base: bunk::BUNKS[1], cushions: 0, throw: false, ..self.bedding() };
             // What lies on the upper bed is an object of its own: names of parts are unique.
             let above = b.object("bed", Class::Bed, pose);
             upper.build(b, &above, pose, rng);

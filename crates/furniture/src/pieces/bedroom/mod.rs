@@ -3,6 +3,7 @@
 
 mod bed;
 mod bedding;
+mod bunk;
 mod clothes;
 mod drawers;
 mod dressing;

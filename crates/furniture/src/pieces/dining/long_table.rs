@@ -4,7 +4,7 @@
 use super::stand::{STYLES, Stand, Style};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
-use crate::pieces::form::{cut_out, rounded_rectangle};
+use crate::pieces::form::{all, cut_out, rounded_rectangle};
 use crate::pieces::style::drawn;
 use crate::pieces::tableware::PlaceSetting;
 use crate::pieces::{Furniture, Surface, board, grained, on};
@@ -110,11 +110,12 @@ impl LongTable {
     fn planks(&self, b: &mut Builder, table: &Object, rng: &mut Rng) {
         let (half, end, count) = (0.5 * self.length, 0.11, (self.width / 0.17).round());
         let wide = self.width / count;
-        for k in 0..count as usize {
+        let plank = |k: usize| {
             let y = wide * k as f32 - 0.5 * self.width;
-            let plank = board([end - half + 0.0004, y + 0.0003, TOP - BOARD], [half - end - 0.0004, y + wide - 0.0003, TOP], 0.0015);
-            b.part(table, &format!("plank_{}", k + 1), grained(plank, rng), self.finish);
-        }
+            board([end - half + 0.0004, y + 0.0003, TOP - BOARD], [half - end - 0.0004, y + wide - 0.0003, TOP], 0.0015)
+        };
+        let planks: Vec<_> = (0..count as usize).map(|k| grained(plank(k), rng)).collect();
+        b.part(table, "top", all(planks), self.finish);
         for (name, [x0, x1]) in [("end_left", [-half, end - half]), ("end_right", [half - end, half])] {
             let plank = board([x0, -0.5 * self.width, TOP - BOARD - 0.0002], [x1, 0.5 * self.width, TOP + 0.0002], 0.0015);
             b.part(table, name, grained(plank, rng), self.finish);

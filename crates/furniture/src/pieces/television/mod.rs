@@ -4,6 +4,7 @@
 mod doors;
 mod open;
 mod set;
+mod tube;
 
 pub use set::TelevisionSet;
 
