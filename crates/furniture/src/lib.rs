@@ -45,7 +45,7 @@ pub use pieces::dining::{LongTable, ShellChair, SpindleChair, UpholsteredChair};
 pub use pieces::gym;
 pub use pieces::kitchen;
 pub use pieces::left::left_thing;
-pub use pieces::living::{Blind, BlindKind, CeilingLamp};
+pub use pieces::living::{Blind, BlindKind, CeilingLamp, CornerSofa};
 pub use pieces::office;
 pub use pieces::school;
 pub use pieces::shop;
@@ -54,7 +54,7 @@ pub use pieces::study;
 pub use pieces::{
     Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CeilingDome, Chair, CoffeeTable, Curtains, DiningTable, Door, FAMILIES, Family,
     FloorLamp, Furniture, Leaf, Magazines, Mirror, Mug, Passage, Pendant, PictureOnWall, Place, Plant, Radiator, Rug, SideTable, Socket,
-    Switch, TableLamp, TelevisionBench, Tray, Vase, WallOpening, Window, board, family_named,
+    Switch, TableLamp, TelevisionBench, TelevisionSet, Tray, Vase, WallOpening, Window, board, family_named,
 };
 pub use room_kind::RoomKind;
 pub use surface::{CONTACT, Surface, on};

@@ -1,8 +1,9 @@
-//! Low tables before a sofa, of class table: a rectangular one of wood with a shelf below its top (95 to 115 × 52 to 60 cm), or a round top
-//! of stone (78 to 90 cm across) on four legs and a ring of black metal. Both kinds are equally frequent.
+//! Low tables before a sofa, of class table: a rectangular one of wood with a shelf below its top (95 to 115 × 52 to 60 cm), a round top of
+//! stone (78 to 90 cm across) on four legs and a ring of black metal, or in a style of the table in [`super::low_table`].
 
 use super::dining_table::round_top;
-use super::{Furniture, board, grained, leg, on, standing};
+use super::low_table::LowTable;
+use super::{Furniture, Surface, board, grained, leg, on, standing};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
 use crate::shape::{Reshape, tube};
@@ -23,6 +24,8 @@ pub enum CoffeeTable {
         /// Diameter of the top.
         diameter: f32,
     },
+    /// In one of the other styles.
+    Styled(LowTable),
 }
 
 /// Height of the top, metres: a little below the seat of a sofa.
@@ -60,10 +63,10 @@ impl CoffeeTable {
 
 impl Furniture for CoffeeTable {
     fn random(rng: &mut Rng) -> Self {
-        if rng.below(2) == 0 {
-            Self::Shelf { length: rng.range(0.95, 1.15), depth: rng.range(0.52, 0.6) }
-        } else {
-            Self::Round { diameter: rng.range(0.78, 0.9) }
+        match rng.below(6) {
+            0 => Self::Shelf { length: rng.range(0.95, 1.15), depth: rng.range(0.52, 0.6) },
+            1 => Self::Round { diameter: rng.range(0.78, 0.9) },
+            _ => Self::Styled(LowTable::random(rng)),
         }
     }
 
@@ -71,7 +74,12 @@ impl Furniture for CoffeeTable {
         match *self {
             Self::Shelf { length, depth } => Vec3::new(length, depth, TOP),
             Self::Round { diameter } => Vec3::new(diameter, diameter, TOP),
+            Self::Styled(table) => table.size(),
         }
+    }
+
+    fn surfaces(&self) -> Vec<Surface> {
+        if let Self::Styled(table) = self { vec![table.surface()] } else { Vec::new() }
     }
 
     fn build(&self, b: &mut Builder, pose: DAffine3, rng: &mut Rng) {
@@ -79,6 +87,7 @@ impl Furniture for CoffeeTable {
         match *self {
             Self::Shelf { length, depth } => Self::shelf(b, &table, 0.5 * Vec2::new(length, depth), rng),
             Self::Round { diameter } => Self::round(b, &table, 0.5 * diameter),
+            Self::Styled(styled) => styled.build(b, &table, rng),
         }
     }
 }

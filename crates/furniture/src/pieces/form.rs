@@ -127,6 +127,11 @@ pub fn around(n: usize, start: f32) -> impl Iterator<Item = Vec2> {
     (0..n).map(move |k| Vec2::from_angle(start + TAU * k as f32 / n as f32))
 }
 
+/// The corners of a rectangle of this half width and half depth, counter-clockwise from the front right one.
+pub fn corners(half: Vec2) -> [Vec2; 4] {
+    [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)].map(|s| s * half)
+}
+
 /// A level plate whose surface is z = 0, with rectangular holes `[x0, x1, y0, y1]` that go through; its outer upper edge is chamfered.
 pub fn plate_with_holes(min: Vec2, max: Vec2, thickness: f32, chamfer: f32, holes: &[[f32; 4]]) -> Mesh {
     let cuts = |low: f32, high: f32, of: [usize; 2]| {

@@ -10,7 +10,9 @@ use enfilade_scene::{Body as Moving, BodyMotion, BodyStates, Scene};
 use std::collections::BTreeSet;
 
 /// Families with joints, and the most that a variant is known to have at least.
-const JOINTED: [(&str, usize); 20] = [
+const JOINTED: [(&str, usize); 26] = [
+    ("bed", 0),
+    ("bottle_fridge", 1),
     ("console", 2),
     ("desk", 2),
     ("dresser", 3),
@@ -19,18 +21,22 @@ const JOINTED: [(&str, usize); 20] = [
     ("glass_cabinet", 4),
     ("kitchen_island", 3),
     ("kitchen_unit", 1),
+    ("lockers", 2),
     ("mirror_cabinet", 1),
     ("nightstand", 1),
+    ("office_cabinet", 2),
     ("office_chair", 1),
     ("refrigerator", 1),
     ("shoe_cabinet", 2),
     ("sideboard", 5),
+    ("till", 1),
     ("toilet", 1),
     ("toy_chest", 1),
-    ("tv_bench", 2),
+    ("tv_bench", 1),
     ("wardrobe", 2),
     ("washbasin", 1),
     ("washing_machine", 2),
+    ("workbench", 3),
 ];
 
 /// Variants of each family that are built.

@@ -24,7 +24,7 @@ fn seeds() -> usize {
     enfilade_testkit::seeds(3, 8) as usize
 }
 /// Variants of a family are built this far apart, metres.
-const APART: f64 = 100.0;
+pub const APART: f64 = 100.0;
 /// Pieces nearer than this are joined, metres: the gaps around fronts are 3 mm wide, those behind a refrigerator's doors 4 mm.
 const JOINT: f32 = 0.0042;
 /// Leaves that are nearer than this are joined, metres: they are set along a straight line, while the shoot that they grow from is bent.
@@ -196,10 +196,10 @@ fn split(mesh: &Mesh) -> Vec<Vec<usize>> {
     pieces.into_values().collect()
 }
 
-/// The pieces of each variant in a scene of separate variants.
-fn pieces(scene: &Scene) -> Vec<Vec<Piece<'_>>> {
+/// The pieces of each of `count` variants in a scene of separate variants.
+fn pieces(scene: &Scene, count: usize) -> Vec<Vec<Piece<'_>>> {
     let splits: Vec<Vec<Vec<usize>>> = scene.meshes.iter().map(|mesh| split(mesh)).collect();
-    let mut all: Vec<Vec<Piece>> = (0..seeds()).map(|_| Vec::new()).collect();
+    let mut all: Vec<Vec<Piece>> = (0..count).map(|_| Vec::new()).collect();
     for part in &scene.parts {
         let mesh = &scene.meshes[part.mesh as usize];
         let world: Vec<DVec3> = mesh.positions.iter().map(|p| part.world_from_mesh.transform_point3(p.as_dvec3())).collect();
@@ -279,21 +279,28 @@ fn loose<'a>(pieces: &[Piece<'a>], place: Place, whole: &Bounds3) -> BTreeMap<&'
     found
 }
 
+/// Builds things side by side, [`APART`] from each other, each with random numbers of its own.
+pub fn side_by_side(things: &[(String, Box<dyn Furniture>)], mut b: Builder) -> Scene {
+    for (k, (_, thing)) in things.iter().enumerate() {
+        thing.build(&mut b, pose(APART * k as f64, 0.0, 0.0, 0.0), &mut Rng::new(k as u64));
+    }
+    b.finish().0
+}
+
+/// Loose pieces of things that `b` builds.
+pub fn loose_among(things: &[(String, Box<dyn Furniture>)], place: Place, b: Builder) -> Vec<String> {
+    let scene = side_by_side(things, b);
+    let variants = pieces(&scene, things.len());
+    let of = |k: usize| loose(&variants[k], place, &place.bounds(things[k].1.size()));
+    let told = |k: usize| of(k).into_iter().map(move |(part, n)| format!("{}: {n} pieces of {part}", things[k].0));
+    (0..things.len()).flat_map(told).collect()
+}
+
 /// Loose pieces in variants of a family that `b` builds.
-fn faults(family: &Family, mut b: Builder) -> Vec<String> {
-    let boxes: Vec<Bounds3> = (0..seeds())
-        .map(|k| {
-            let mut rng = Rng::new(k as u64);
-            let thing = (family.random)(&mut rng);
-            thing.build(&mut b, pose(APART * k as f64, 0.0, 0.0, 0.0), &mut rng);
-            family.place.bounds(thing.size())
-        })
-        .collect();
-    let scene = b.finish().0;
-    let variants = pieces(&scene);
-    let of = |seed: usize| loose(&variants[seed], family.place, &boxes[seed]);
-    let told = |seed: usize| of(seed).into_iter().map(move |(part, n)| format!("{}, seed {seed}: {n} pieces of {part}", family.name));
-    (0..seeds()).flat_map(told).collect()
+fn faults(family: &Family, b: Builder) -> Vec<String> {
+    let variant = |seed: usize| (format!("{}, seed {seed}", family.name), (family.random)(&mut Rng::new(seed as u64)));
+    let things: Vec<_> = (0..seeds()).map(variant).collect();
+    loose_among(&things, family.place, b)
 }
 
 #[test]

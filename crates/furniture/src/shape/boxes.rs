@@ -8,18 +8,23 @@ use enfilade_math::{Vec2, Vec3};
 
 /// A box centred on the origin whose edges are bevelled by `radius`: furniture boards. 108 triangles.
 pub fn bevelled_box(size: Vec3, radius: f32) -> Mesh {
-    build(size, radius, 1, 1)
+    build(size, radius, 1, [1; 3])
 }
 
 /// A box centred on the origin with round edges of `radius`, each quarter circle in 2 × `segments` steps.
 pub fn rounded_box(size: Vec3, radius: f32, segments: usize) -> Mesh {
-    build(size, radius, segments, 1)
+    build(size, radius, segments, [1; 3])
+}
+
+/// A bevelled box that can be bent: its faces have this many cells along x, y and z.
+pub fn bendable_box(size: Vec3, radius: f32, cells: [usize; 3]) -> Mesh {
+    build(size, radius, 1, cells)
 }
 
 /// A rounded box that swells by `swell` metres at the middle of its faces along z, like a filled cushion.
 pub fn padded_box(size: Vec3, radius: f32, swell: f32) -> Mesh {
     let half = 0.5 * size;
-    build(size, radius, 3, 8)
+    build(size, radius, 3, [8; 3])
         .deformed(|p| {
             let q = (p / half).clamp(Vec3::splat(-1.0), Vec3::ONE);
             let bulge = (1.0 - q.x.powi(4)) * (1.0 - q.y.powi(4));
@@ -40,7 +45,7 @@ fn lines(half: f32, radius: f32, segments: usize, cells: usize) -> Vec<Line> {
     low.chain(flat).chain((1..=segments).map(|k| (inner, radius * arc(k)))).collect()
 }
 
-fn build(size: Vec3, radius: f32, segments: usize, cells: usize) -> Mesh {
+fn build(size: Vec3, radius: f32, segments: usize, cells: [usize; 3]) -> Mesh {
     let half = 0.5 * size;
     let radius = radius.min(0.499 * size.min_element()).max(1e-4);
     let grain = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
@@ -49,7 +54,7 @@ fn build(size: Vec3, radius: f32, segments: usize, cells: usize) -> Mesh {
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
         let (along, across) = if b == grain { (b, a) } else { (a, b) };
         for side in [1.0, -1.0] {
-            let (lines_a, lines_b) = (lines(half[a], radius, segments, cells), lines(half[b], radius, segments, cells));
+            let (lines_a, lines_b) = (lines(half[a], radius, segments, cells[a]), lines(half[b], radius, segments, cells[b]));
             let base = mesh.positions.len() as u32;
             for &(center_b, out_b) in &lines_b {
                 for &(center_a, out_a) in &lines_a {

@@ -11,7 +11,7 @@ mod frame;
 mod lathe;
 mod tube;
 
-pub use boxes::{bevelled_box, padded_box, rounded_box};
+pub use boxes::{bendable_box, bevelled_box, padded_box, rounded_box};
 pub use cloth::{curtain, leaf, pillow};
 pub use edit::Reshape;
 pub use frame::{Top, picture_frame, slab_below, slab_with_openings};

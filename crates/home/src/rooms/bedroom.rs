@@ -1,6 +1,7 @@
 //! The bedroom: a bed with room on both sides, and a place for clothes.
 
 use super::Furnisher;
+use super::television;
 use super::wishes::{by_window, centred, cornered, in_view, tucked_away};
 use crate::place::Piece;
 use enfilade_furniture::{Bed, Furniture, Surface, TableLamp};
@@ -39,6 +40,7 @@ pub fn furnish(f: &mut Furnisher) {
     f.perhaps(0.4, "laundry_basket", tucked_away);
     f.perhaps(0.6, "plant", by_window);
     f.hang_one(0.5, "mirror", 1.5, in_view);
+    television::before_bed(f);
     f.art(3, |_, s| s.x.abs());
     f.hang_one(0.45, "wall_shelf", 1.55, |_, s| s.x.abs());
     f.hang_plant(0.25);

@@ -20,7 +20,8 @@ const SELDOM: f32 = 0.22;
 impl Furnisher<'_> {
     /// A desk with what people work with, and a chair before it.
     pub fn work_place(&mut self, cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
-        let Some(chair) = self.any("office_chair").or_else(|| self.any("chair")) else { return false };
+        let chair = if self.chance(0.75) { "office_chair" } else { "chair" };
+        let Some(chair) = self.any(chair) else { return false };
         for _ in 0..4 {
             let Some(desk) = self.any("desk") else { return false };
             let size = desk.size();

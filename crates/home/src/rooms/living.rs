@@ -2,12 +2,13 @@
 
 use super::Furnisher;
 use super::furnisher::Standing;
+use super::television;
 use super::wishes::centred;
 use crate::place::{Piece, Spot};
 use crate::room::Wall;
 use enfilade_furniture::{
-    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CoffeeTable, FloorLamp, Furniture, Magazines, Mirror, Mug, PictureOnWall, Plant,
-    RoomKind, Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
+    Armchair, Basket, BookStack, Bookshelf, Bowl, Candles, CoffeeTable, CornerSofa, FloorLamp, Furniture, Magazines, Mirror, Mug,
+    PictureOnWall, Plant, RoomKind, Rug, SideTable, TableLamp, TelevisionBench, Tray, Vase, on,
 };
 use enfilade_math::{DAffine3, Vec2, Vec3};
 use enfilade_textures::PaintingStyle;
@@ -37,22 +38,28 @@ pub fn furnish(f: &mut Furnisher) {
 
 /// Sofa, rug, coffee table and television, tried wall by wall.
 fn seating(f: &mut Furnisher) -> Option<Standing> {
-    let model = ["sofa", "sofa", "sofa", "chesterfield", "day_bed"][f.rng.below(5)];
-    let sofa = f.any(model)?;
+    let corner = (f.rng.below(7) == 0).then(|| CornerSofa::random(&mut f.rng));
+    let model = ["sofa", "sofa", "sofa", "sofa", "chesterfield", "day_bed"][f.rng.below(6)];
+    let sofa: Box<dyn Furniture> = match corner {
+        Some(corner) => Box::new(corner),
+        None => f.any(model)?,
+    };
     let own = CoffeeTable::random(&mut f.rng);
     let model = f.borrow("coffee_table", &own, |_| true);
     let table: &dyn Furniture = model.as_ref().map_or(&own, |model| model);
     let bench = TelevisionBench::random(&mut f.rng);
-    let rug = Rug { size: Vec2::new(f.rng.range(2.1, 2.4), f.rng.range(1.4, 1.5)) };
+    let mut rug = Rug { size: Vec2::new(f.rng.range(2.1, 2.4), f.rng.range(1.4, 1.5)) };
     let mut walls: Vec<(f32, Wall)> = Vec::new();
     for wall in f.room.walls() {
         walls.push((wall_cost(f, wall) + f.rng.range(0.0, 0.6), wall));
     }
     walls.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let depth = sofa.size().y;
+    // Before a sofa around a corner, table and rug are beside its chaise.
+    let [beside, wide, depth] = corner.map_or([0.0, f32::INFINITY, sofa.size().y], |corner| corner.before());
+    rug.size.x = rug.size.x.min(wide - 0.1);
     let seat = Piece::standing(sofa.size(), KNEES - 0.05);
-    let low = Piece::standing(table.size() + Vec3::new(0.0, 0.0, Rug::TOP), 0.0).at(0.0, depth + KNEES + 0.5 * table.size().y, 0.0);
-    let mat = Piece { flat: true, ..Piece::standing(rug.size(), 0.0).at(0.0, depth + 0.04 + 0.5 * rug.size.y, 0.0) };
+    let low = Piece::standing(table.size() + Vec3::new(0.0, 0.0, Rug::TOP), 0.0).at(beside, depth + KNEES + 0.5 * table.size().y, 0.0);
+    let mat = Piece { flat: true, ..Piece::standing(rug.size(), 0.0).at(beside, depth + 0.04 + 0.5 * rug.size.y, 0.0) };
     for (with_screen, with_table) in [(true, true), (true, false), (false, true), (false, false)] {
         for (across, wall) in walls.iter().flat_map(|&(_, wall)| f.room.depths(wall).into_iter().map(move |across| (across, wall))) {
             for aside in [0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0] {
@@ -76,8 +83,7 @@ fn seating(f: &mut Furnisher) -> Option<Standing> {
                 if with_screen {
                     let pose = poses[poses.len() - 1];
                     f.plugs.push(pose.translation.truncate().as_vec2());
-                    f.build(&bench, pose);
-                    on_bench(f, &bench, pose);
+                    television::opposite(f, &bench, f.room.face(wall).opposite, pose);
                 }
                 return Some(Standing { pose: poses[0], size: sofa.size(), spot });
             }
@@ -120,19 +126,8 @@ fn on_coffee_table(f: &mut Furnisher, table: &CoffeeTable, pose: DAffine3) {
             let turn = f.rng.range(0.0, 6.0);
             f.build_small(&Mug, top(side * 0.1, -0.27 * diameter, turn));
         }
+        CoffeeTable::Styled(_) => f.litter(&table.surfaces(), pose, 1.0),
     }
-}
-
-fn on_bench(f: &mut Furnisher, bench: &TelevisionBench, pose: DAffine3) {
-    let top = |x: f32, y: f32| on(pose, Vec3::new(x, y, TelevisionBench::TOP), 0.0);
-    let beside = 0.25 * (bench.width + bench.screen);
-    let side = if f.rng.below(2) == 0 { 1.0 } else { -1.0 };
-    let vase = Vase { height: 0.24, belly: 0.075, branches: 5 };
-    if f.is_below_slopes(vase.size(), top(side * beside, 0.0)) {
-        f.build_small(&vase, top(side * beside, 0.0));
-    }
-    let turn = f.rng.range(-0.15, 0.15);
-    f.build_small(&BookStack { count: 2 }, on(top(-side * beside, -0.02), Vec3::ZERO, turn));
 }
 
 /// A side table with a lamp at one end of the sofa, a floor lamp at the other.

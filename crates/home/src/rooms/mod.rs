@@ -31,6 +31,7 @@ mod stations;
 mod store;
 mod study;
 mod table;
+mod television;
 #[cfg(test)]
 mod tests;
 mod wishes;

@@ -66,7 +66,8 @@ impl Table {
 impl Furnisher<'_> {
     /// Places a table with chairs where there is room, the largest that fits; `seats` is the minimum and maximum number of people.
     pub fn dine(&mut self, seats: [usize; 2], cost: impl Fn(&Floor, &Spot) -> f32) -> bool {
-        let family = self.rng.below(4);
+        // The first family has most styles.
+        let family = [0, 0, 0, 1, 2, 3][self.rng.below(6)];
         let mut tables: Vec<Table> = (0..3).map(|_| Table::Small(DiningTable::random(&mut self.rng))).collect();
         if seats[1] > 4 || self.chance(0.4) {
             tables.extend((0..5).map(|_| Table::Long(LongTable::random(&mut self.rng))));

@@ -149,25 +149,65 @@ fn about(track: &Track, calibration: &Calibration, rooms: Option<&Rooms>) -> Str
         let _ = writeln!(text, "{key}_color = {value}\n{key}_depth = {value}");
     }
     let _ = writeln!(text, "numColorFrames = {0}\nnumDepthFrames = {0}\nnumIMUmeasurements = 0", track.chosen.len());
-    let _ = writeln!(text, "sceneType = {}", scene_type(rooms));
+    let kinds = rooms.iter().flat_map(|rooms| &rooms.outlines).map(|room| room.kind.as_str());
+    let _ = writeln!(text, "sceneType = {}", scene_type(kinds));
     text
 }
 
-/// ScanNet's word for what the rooms of a scene are.
-fn scene_type(rooms: Option<&Rooms>) -> &'static str {
-    match rooms.map(|rooms| rooms.outlines.as_slice()) {
-        Some([room]) => match room.kind.as_str() {
-            "bathroom" | "toilet" => "Bathroom",
-            "bedroom" | "childrens" => "Bedroom / Hotel",
-            "dining" => "Dining Room",
-            "hall" => "Hallway",
-            "kitchen" => "Kitchen",
-            "laundry" => "Laundry Room",
-            "living" => "Living room / Lounge",
-            "study" => "Office",
-            _ => "Misc.",
-        },
-        Some([_, _, ..]) => "Apartment",
-        _ => "Misc.",
+/// ScanNet's word for what the rooms of a scene are: that of the only room; several rooms of a home are an apartment. In other buildings it
+/// is that of the rooms that homes do not have, if they have one.
+fn scene_type<'a>(kinds: impl IntoIterator<Item = &'a str>) -> &'static str {
+    let (at_home, public): (Vec<_>, Vec<_>) = kinds.into_iter().map(room_type).partition(|(_, at_home)| *at_home);
+    match (at_home.as_slice(), public.as_slice()) {
+        ([(word, _)], []) => word,
+        ([_, _, ..], []) => "Apartment",
+        (_, [(word, _), others @ ..]) if others.iter().all(|(other, _)| other == word) => word,
+        _ => MISC,
+    }
+}
+
+/// ScanNet's word where none fits.
+const MISC: &str = "Misc.";
+
+/// ScanNet's word for a kind of room, and whether homes have such rooms; kinds that are not known count among those.
+fn room_type(kind: &str) -> (&'static str, bool) {
+    match kind {
+        "bathroom" | "toilet" => ("Bathroom", true),
+        "bedroom" | "childrens" => ("Bedroom / Hotel", true),
+        "dining" => ("Dining Room", true),
+        "hall" => ("Hallway", true),
+        "kitchen" => ("Kitchen", true),
+        "laundry" => ("Laundry Room", true),
+        "living" => ("Living room / Lounge", true),
+        "study" => ("Office", true),
+        "hotel_room" => ("Bedroom / Hotel", false),
+        "office" | "open_office" => ("Office", false),
+        "meeting" => ("Conference Room", false),
+        "classroom" => ("Classroom", false),
+        "computer_lab" => ("ComputerCluster", false),
+        "corridor" => ("Hallway", false),
+        "library" | "bookshop" => ("Bookstore / Library", false),
+        "reception" => ("Lobby", false),
+        "gym" => ("Gym", false),
+        "storeroom" => ("Storage/Basement/Garage", false),
+        "cafe" | "shop" | "workshop" => (MISC, false),
+        _ => (MISC, true),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scene_type;
+
+    #[test]
+    fn a_scene_is_what_its_rooms_are() {
+        assert_eq!(scene_type([]), "Misc.");
+        assert_eq!(scene_type(["classroom"]), "Classroom");
+        assert_eq!(scene_type(["kitchen", "hall"]), "Apartment");
+        assert_eq!(scene_type(["library", "bookshop"]), "Bookstore / Library");
+        assert_eq!(scene_type(["office", "meeting"]), "Misc.");
+        assert_eq!(scene_type(["hotel_room", "bathroom"]), "Bedroom / Hotel");
+        // A study is at home, an office is not.
+        assert_eq!(scene_type(["study", "hall"]), "Apartment");
     }
 }

@@ -196,11 +196,13 @@ fn words(kind: &str) -> &'static str {
         "living" => "living room",
         "kitchen" => "kitchen",
         "dining" => "dining room",
-        "bedroom" | "childrens" => "bedroom",
+        "bedroom" | "childrens" | "hotel_room" => "bedroom",
         "study" => "study",
         "bathroom" | "toilet" => "bathroom",
-        "hall" => "corridor",
+        "hall" | "corridor" => "corridor",
         "laundry" => "laundry room",
+        "office" | "open_office" => "office",
+        "storeroom" => "store room",
         _ => "undefined",
     }
 }

@@ -3,11 +3,15 @@
 
 mod bed;
 mod bedding;
+mod bunk;
 mod clothes;
 mod drawers;
 mod dressing;
+mod frames;
 mod garment;
+mod upholstered;
 mod wardrobe;
+mod wooden;
 
 pub use bed::Bed;
 pub use clothes::{FoldedClothes, hang_garment};

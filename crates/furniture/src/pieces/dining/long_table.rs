@@ -1,12 +1,14 @@
-//! A rectangular dining table for four to eight people, 130 to 230 × 82 to 98 cm, of class table, on one of five kinds of stand. Some are
-//! cut for a leaf in the middle, and one in three is laid for a meal at its long sides. The long side is along x.
+//! A rectangular dining table for four to eight people, 130 to 230 × 82 to 98 cm, of class table, in a style of the table [`STYLES`]. Some
+//! are cut for a leaf in the middle, and one in three is laid for a meal at its long sides. The long side is along x.
 
+use super::stand::{STYLES, Stand, Style};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
-use crate::pieces::form::{all, cut_out, rod, rounded_rectangle, turned};
+use crate::pieces::form::{all, cut_out, rounded_rectangle};
+use crate::pieces::style::drawn;
 use crate::pieces::tableware::PlaceSetting;
-use crate::pieces::{Furniture, Surface, board, grained, leg, on};
-use crate::shape::{Reshape, bevelled_box};
+use crate::pieces::{Furniture, Surface, board, grained, on};
+use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
 /// A rectangular dining table.
@@ -16,35 +18,40 @@ pub struct LongTable {
     pub length: f32,
     /// Width along y.
     pub width: f32,
+    /// The outline of the top.
+    pub outline: Outline,
     /// The stand of the table.
     pub stand: Stand,
     /// The top is cut for a leaf in the middle, to be pulled out.
     pub extends: bool,
-    /// Finish of the top, and the stand unless it is of metal.
+    /// Finish of the top.
     pub finish: Finish,
+    /// Finish of the stand.
+    pub below: Finish,
     /// The setting of every place along the long sides, if the table is laid.
     pub laid: Option<PlaceSetting>,
 }
 
-/// The stand of a long table.
+/// The outline of a table's top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stand {
-    /// Square legs in the corners and an apron.
-    Corners,
-    /// Round legs that slant outward.
-    Slanted,
-    /// Two frames of metal.
-    Frames,
-    /// Crossed beams at either end, with a beam between them.
-    Trestle,
-    /// Two turned columns on feet.
-    Columns,
+pub enum Outline {
+    /// A rectangle.
+    Rectangle,
+    /// A rectangle with round corners.
+    Rounded,
+    /// An oval: a superellipse with the exponent 2.6.
+    Oval,
+    /// Planks side by side between two across their ends.
+    Planks,
 }
 
+/// Exponent of an oval top.
+const OVAL: f32 = 2.6;
+
 /// Height of the top's surface, metres: EN 1729 and common practice have 720 to 760 mm.
-const TOP: f32 = 0.75;
+pub(super) const TOP: f32 = 0.75;
 /// Thickness of the top, metres.
-const BOARD: f32 = 0.032;
+pub(super) const BOARD: f32 = 0.032;
 
 impl LongTable {
     /// Places along one long side: 60 cm for a person (Neufert).
@@ -56,8 +63,12 @@ impl LongTable {
     pub fn seats(&self) -> Vec<(Vec2, Vec2)> {
         let n = self.places();
         let x = |k: usize| ((k as f32 + 0.5) / n as f32 - 0.5) * (self.length - 0.1);
-        let half = 0.5 * self.width;
-        let mut seats: Vec<_> = (0..n).flat_map(|k| [(Vec2::new(x(k), half), Vec2::NEG_Y), (Vec2::new(x(k), -half), Vec2::Y)]).collect();
+        let half = |x: f32| {
+            let off = if self.outline == Outline::Oval { (2.0 * x / self.length).abs().powf(OVAL) } else { 0.0 };
+            0.5 * self.width * (1.0 - off).powf(1.0 / OVAL)
+        };
+        let mut seats: Vec<_> =
+            (0..n).flat_map(|k| [(Vec2::new(x(k), half(x(k))), Vec2::NEG_Y), (Vec2::new(x(k), -half(x(k))), Vec2::Y)]).collect();
         if self.length > 1.7 {
             let end = 0.5 * self.length;
             seats.extend([(Vec2::new(end, 0.0), Vec2::NEG_X), (Vec2::new(-end, 0.0), Vec2::X)]);
@@ -74,126 +85,54 @@ impl LongTable {
             for (i, [x0, x1]) in [[-half, -leaf - joint], [-leaf + joint, leaf - joint], [leaf + joint, half]].into_iter().enumerate() {
                 b.part(table, &format!("top_{}", i + 1), grained(slab(x0, x1), rng), self.finish);
             }
-        } else if self.stand == Stand::Slanted {
-            let outline = rounded_rectangle(self.length, self.width, 0.08, 6);
-            b.part(table, "top", grained(cut_out(&outline, BOARD, 0.006).moved(Vec3::new(0.0, 0.0, TOP - BOARD)), rng), self.finish);
-        } else {
-            b.part(table, "top", grained(slab(-half, half), rng), self.finish);
+            return;
+        }
+        let cut = |outline: &[Vec2]| cut_out(outline, BOARD, 0.006).moved(Vec3::new(0.0, 0.0, TOP - BOARD));
+        let mesh = match self.outline {
+            Outline::Rectangle => slab(-half, half),
+            Outline::Rounded => cut(&rounded_rectangle(self.length, self.width, 0.08, 6)),
+            Outline::Oval => {
+                let point = |k: usize| {
+                    let (sin, cos) = (k as f32 / 72.0 * std::f32::consts::TAU).sin_cos();
+                    let round = |v: f32| v.signum() * v.abs().powf(2.0 / OVAL);
+                    Vec2::new(half * round(cos), 0.5 * self.width * round(sin))
+                };
+                cut(&(0..72).map(point).collect::<Vec<_>>())
+            }
+            Outline::Planks => return self.planks(b, table, rng),
+        };
+        b.part(table, "top", grained(mesh, rng), self.finish);
+    }
+}
+
+impl LongTable {
+    /// A top of planks side by side between two across their ends.
+    fn planks(&self, b: &mut Builder, table: &Object, rng: &mut Rng) {
+        let (half, end, count) = (0.5 * self.length, 0.11, (self.width / 0.17).round());
+        let wide = self.width / count;
+        let plank = |k: usize| {
+            let y = wide * k as f32 - 0.5 * self.width;
+            board([end - half + 0.0004, y + 0.0003, TOP - BOARD], [half - end - 0.0004, y + wide - 0.0003, TOP], 0.0015)
+        };
+        let planks: Vec<_> = (0..count as usize).map(|k| grained(plank(k), rng)).collect();
+        b.part(table, "top", all(planks), self.finish);
+        for (name, [x0, x1]) in [("end_left", [-half, end - half]), ("end_right", [half - end, half])] {
+            let plank = board([x0, -0.5 * self.width, TOP - BOARD - 0.0002], [x1, 0.5 * self.width, TOP + 0.0002], 0.0015);
+            b.part(table, name, grained(plank, rng), self.finish);
         }
     }
 
-    fn apron(&self, b: &mut Builder, table: &Object, inset: f32, rng: &mut Rng) {
-        let (x, y) = (0.5 * self.length - inset, 0.5 * self.width - inset);
-        for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-            let long = bevelled_box(Vec3::new(2.0 * x, 0.02, 0.085), 0.0015).moved(Vec3::new(0.0, s * y, TOP - BOARD - 0.0432));
-            let short = bevelled_box(Vec3::new(0.02, 2.0 * y - 0.022, 0.085), 0.0015).moved(Vec3::new(s * x, 0.0, TOP - BOARD - 0.0434));
-            b.part(table, &format!("apron_long_{}", i + 1), grained(long, rng), self.finish);
-            b.part(table, &format!("apron_short_{}", i + 1), grained(short, rng), self.finish);
-        }
-    }
-
-    fn stand(&self, b: &mut Builder, table: &Object, rng: &mut Rng) {
-        let under = TOP - BOARD - 0.0002;
-        let half = 0.5 * Vec2::new(self.length, self.width);
-        let corners = [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)];
-        match self.stand {
-            Stand::Corners => {
-                self.apron(b, table, 0.06, rng);
-                for (i, s) in corners.into_iter().enumerate() {
-                    // Half the thickness of a leg.
-                    let (at, thick) = (s * (half - 0.045), 0.037);
-                    let post = board([at.x - thick, at.y - thick, 0.0], [at.x + thick, at.y + thick, under], 0.004);
-                    b.part(table, &format!("leg_{}", i + 1), grained(post, rng), self.finish);
-                }
-            }
-            Stand::Slanted => {
-                self.apron(b, table, 0.16, rng);
-                for (i, s) in corners.into_iter().enumerate() {
-                    let at = (s * (half - 0.15)).extend(0.0);
-                    let mesh = leg(under, [0.017, 0.031], s * Vec2::new(0.07, 0.06));
-                    b.part(table, &format!("leg_{}", i + 1), grained(mesh.moved(at), rng), self.finish);
-                }
-            }
-            Stand::Frames => {
-                for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-                    let (x, y) = (s * (half.x - 0.22), half.y - 0.09);
-                    let bar = |from: Vec3, to: Vec3| {
-                        bevelled_box((to - from).abs() + Vec3::new(0.08, 0.03, 0.03), 0.002).moved(0.5 * (from + to))
-                    };
-                    let z = [0.015, under - 0.015];
-                    let [p, q] = [Vec3::new(x, -y, 0.0), Vec3::new(x, y, 0.0)];
-                    let up = |z: f32| Vec3::new(0.0, 0.0, z);
-                    // Posts reach half a millimetre into the bars below and above them.
-                    let end = 0.0295;
-                    let frame = all([
-                        bar(p + up(z[0]), q + up(z[0])),
-                        bar(p + up(z[1]), q + up(z[1])),
-                        bar(p + up(z[0] + end), p + up(z[1] - end)),
-                        bar(q + up(z[0] + end), q + up(z[1] - end)),
-                    ]);
-                    b.part(table, &format!("frame_{}", i + 1), frame, Finish::BlackMetal);
-                }
-            }
-            Stand::Trestle => {
-                for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-                    let x = s * (half.x - 0.3);
-                    let beam = |y: f32, z: f32, w: f32| bevelled_box(Vec3::new(0.08, 2.0 * w, 0.06), 0.004).moved(Vec3::new(x, y, z));
-                    let post = board([x - 0.045, -0.06, 0.0598], [x + 0.045, 0.06, under - 0.0598], 0.004);
-                    let mesh = all([beam(0.0, 0.03, half.y - 0.1), beam(0.0, under - 0.03, half.y - 0.06), post]);
-                    b.part(table, &format!("trestle_{}", i + 1), grained(mesh, rng), self.finish);
-                }
-                let rail = board([-half.x + 0.33, -0.02, 0.24], [half.x - 0.33, 0.02, 0.33], 0.003);
-                b.part(table, "rail", grained(rail, rng), self.finish);
-            }
-            Stand::Columns => {
-                let inset = 0.42;
-                for (i, s) in [-1.0f32, 1.0].into_iter().enumerate() {
-                    let x = s * (half.x - inset);
-                    let column = turned(
-                        &[
-                            [0.0, 0.06],
-                            [0.05, 0.06],
-                            [0.055, 0.09],
-                            [0.038, 0.14],
-                            [0.034, 0.3],
-                            [0.052, 0.42],
-                            [0.058, 0.5],
-                            [0.04, 0.58],
-                            [0.05, 0.64],
-                            [0.05, under - 0.03],
-                            [0.12, under - 0.02],
-                            [0.12, under],
-                            [0.0, under],
-                        ],
-                        32,
-                    );
-                    b.part(table, &format!("column_{}", i + 1), grained(column.moved(Vec3::new(x, 0.0, 0.0)), rng), self.finish);
-                    let foot = |side: f32| {
-                        let curve = [[x, side * 0.03, 0.11], [x, side * 0.16, 0.1], [x, side * (half.y - 0.13), 0.015]];
-                        crate::pieces::standing(crate::pieces::form::wire(&curve, 0.022, 12))
-                    };
-                    b.part(table, &format!("feet_{}", i + 1), foot(-1.0).with(foot(1.0)), self.finish);
-                }
-                let rail = rod([-half.x + inset, 0.0, 0.2], [half.x - inset, 0.0, 0.2], 0.018, 14);
-                b.part(table, "rail", grained(rail, rng), self.finish);
-            }
-        }
+    fn of((outline, stand, finishes): Style, rng: &mut Rng) -> Self {
+        let laid = (outline != Outline::Oval && rng.below(3) == 0).then(|| PlaceSetting::random(rng));
+        let [finish, below] = finishes[rng.below(finishes.len())];
+        let extends = stand == Stand::Corners && outline == Outline::Rectangle && rng.below(2) == 0;
+        Self { length: rng.range(1.3, 2.3), width: rng.range(0.82, 0.98), outline, stand, extends, finish, below, laid }
     }
 }
 
 impl Furniture for LongTable {
     fn random(rng: &mut Rng) -> Self {
-        let stands = [Stand::Corners, Stand::Slanted, Stand::Frames, Stand::Trestle, Stand::Columns];
-        let stand = stands[rng.below(5)];
-        let laid = (rng.below(3) == 0).then(|| PlaceSetting::random(rng));
-        Self {
-            length: rng.range(1.3, 2.3),
-            width: rng.range(0.82, 0.98),
-            stand,
-            extends: stand == Stand::Corners && rng.below(2) == 0,
-            finish: [Finish::Wood, Finish::Wood, Finish::DarkWood, Finish::WhiteLacquer][rng.below(4)],
-            laid,
-        }
+        Self::of(drawn(STYLES, rng), rng)
     }
 
     fn size(&self) -> Vec3 {
@@ -204,7 +143,7 @@ impl Furniture for LongTable {
         let half = 0.5 * Vec2::new(self.length, self.width) - 0.05;
         // On a laid table only the middle between the glasses is free, and mats push the glasses further in.
         let taken = self.laid.map_or(0.0, |laid| if laid.mat { 0.395 } else { 0.37 });
-        let half = Vec2::new(half.x, half.y - taken);
+        let half = Vec2::new(half.x, half.y - taken) * if self.outline == Outline::Oval { 0.72 } else { 1.0 };
         if half.y < 0.05 {
             return Vec::new();
         }
@@ -222,6 +161,32 @@ impl Furniture for LongTable {
             let at = edge + look * 0.2;
             let yaw = if look.y < 0.0 { 0.0 } else { std::f32::consts::PI };
             setting.build(b, on(pose, at.extend(TOP), yaw), &mut set.clone());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pieces::{Place, style_tests::check};
+
+    #[test]
+    fn every_style_stands_and_is_of_one_piece() {
+        let mut rng = Rng::new(1);
+        let mut things: Vec<(String, Box<dyn Furniture>)> = Vec::new();
+        for (i, &(_, style)) in STYLES.iter().enumerate() {
+            let table = LongTable { laid: None, ..LongTable::of(style, &mut rng) };
+            things.push((format!("{:?} {:?} {i}", style.0, style.1), Box::new(table)));
+        }
+        check(Place::Free, &things);
+    }
+
+    #[test]
+    fn the_seats_of_an_oval_are_at_its_edge() {
+        let table = LongTable { length: 2.0, width: 0.9, outline: Outline::Oval, ..LongTable::random(&mut Rng::new(1)) };
+        for (edge, look) in table.seats().into_iter().filter(|(_, look)| look.x == 0.0) {
+            let on = (edge.x.abs() / 1.0).powf(OVAL) + (edge.y.abs() / 0.45).powf(OVAL);
+            assert!((on - 1.0).abs() < 1e-4 && look.y * edge.y < 0.0, "{edge} {look}");
         }
     }
 }

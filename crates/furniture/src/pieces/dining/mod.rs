@@ -5,6 +5,7 @@ mod chairs;
 mod glass_cabinet;
 mod long_table;
 mod sideboard;
+mod stand;
 mod stool;
 
 pub use bench::DiningBench;

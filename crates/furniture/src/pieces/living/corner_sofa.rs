@@ -42,6 +42,11 @@ const SEAT: f32 = 0.42;
 const TOP: f32 = 0.68;
 
 impl CornerSofa {
+    /// The floor before the long side: its middle beside the middle of the sofa, its width, and its distance from the back.
+    pub fn before(&self) -> [f32; 3] {
+        [-0.5 * CHAISE * self.side, self.width - CHAISE, DEPTH]
+    }
+
     /// Adds a box of the sofa between two corners, whose y is counted from the sofa's back.
     fn block(&self, b: &mut Builder, sofa: &Object, name: &str, min: [f32; 3], max: [f32; 3], round: f32) {
         let (min, max) = (Vec3::from_array(min), Vec3::from_array(max));

@@ -2,6 +2,7 @@
 //! with rows of binders, as a family of its own (class shelves; each row is of class other prop).
 
 use crate::builder::{Builder, Class, Object};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::form::all;
 use crate::pieces::{CONTACT, Furniture, Surface, board, on};
@@ -70,6 +71,7 @@ impl OfficeCabinet {
 
     fn doors(&self, b: &mut Builder, object: &Object) {
         let (x, y, top) = (0.5 * self.width, 0.5 * DEPTH, self.height());
+        let first = b.part_count();
         for (name, s) in [("left", -1.0f32), ("right", 1.0)] {
             let ends = [s * 0.0012, s * (x - 0.001)];
             let door = board([ends[0].min(ends[1]), y - 0.0318, PLINTH + 0.002], [ends[0].max(ends[1]), y - 0.012, top - 0.002], 0.0015);
@@ -78,6 +80,10 @@ impl OfficeCabinet {
         let z = 0.5 * (top + PLINTH);
         let handle = rounded_box(Vec3::new(0.05, 0.018, 0.12), 0.006, 2).moved(Vec3::new(-0.04, y - 0.0105, z));
         b.part(object, "handle", handle, Finish::BlackPlastic);
+        // The handle is on the left door.
+        for (name, s, parts) in [("left", -1.0, vec![first, first + 2]), ("right", 1.0, vec![first + 1])] {
+            b.joint(object, &format!("door_{name}"), &Joint::cupboard(s * (x - 0.001), y - 0.012, s), parts);
+        }
     }
 
     fn tambour(&self, b: &mut Builder, object: &Object) {

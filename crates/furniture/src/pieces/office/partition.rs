@@ -1,4 +1,5 @@
-//! A screen between desks, 1.2 to 1.5 m high on two feet, of class other structure: felt in a frame of aluminium, sometimes with glass above.
+//! A screen between desks, 1.2 to 1.5 m high on two feet, of class other structure: felt in a frame of aluminium, sometimes with glass above,
+//! or one pane of glass.
 
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
@@ -14,10 +15,21 @@ pub struct Partition {
     pub width: f32,
     /// Height above the floor.
     pub height: f32,
-    /// The uppermost 30 cm are of frosted glass.
-    pub glazed: bool,
+    /// Where it is of glass.
+    pub glazing: Glazing,
     /// Finish of its cloth.
     pub cloth: Finish,
+}
+
+/// Where a screen is of glass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Glazing {
+    /// Nowhere.
+    None,
+    /// The uppermost 30 cm, frosted.
+    Upper,
+    /// All within the frame: clear, frosted or tinted.
+    Whole(Finish),
 }
 
 /// Thickness of its frame, and the height of the panel's lower edge above the floor, metres.
@@ -35,7 +47,12 @@ impl Furniture for Partition {
         Self {
             width: rng.range(1.2, 1.8),
             height: rng.range(1.2, 1.5),
-            glazed: rng.below(4) == 0,
+            glazing: [
+                Glazing::None,
+                Glazing::None,
+                Glazing::Upper,
+                Glazing::Whole([Finish::Glass, Finish::FrostedGlass, Finish::TintedGlass][rng.below(3)]),
+            ][rng.below(4)],
             cloth: [Finish::Felt, Finish::SofaCloth, Finish::ArmchairCloth][rng.below(3)],
         }
     }
@@ -58,12 +75,17 @@ impl Furniture for Partition {
             ))
         });
         b.part(&object, "frame", frame.with(all(feet)), Finish::Aluminium);
-        let (x, top) = (0.5 * self.width - 0.02, if self.glazed { self.height - GLASS } else { self.height - 0.02 });
+        let x = 0.5 * self.width - 0.02;
+        let pane = |low: f32, high: f32| crate::pieces::form::picture(2.0 * x, high - low).moved(Vec3::new(0.0, 0.0, 0.5 * (low + high)));
+        if let Glazing::Whole(glass) = self.glazing {
+            return b.part(&object, "pane", pane(BELOW + 0.02, self.height - 0.02), glass);
+        }
+        let glazed = self.glazing == Glazing::Upper;
+        let top = if glazed { self.height - GLASS } else { self.height - 0.02 };
         b.part(&object, "panel", board([-x, 0.004 - half, BELOW + 0.02], [x, half - 0.004, top], 0.002), self.cloth);
-        if self.glazed {
+        if glazed {
             b.part(&object, "rail", board([-x, -half, top + 0.0002], [x, half, top + 0.018], 0.002), Finish::Aluminium);
-            let pane = crate::pieces::form::picture(2.0 * x, GLASS - 0.034);
-            b.part(&object, "pane", pane.moved(Vec3::new(0.0, 0.0, top + 0.016 + 0.5 * (GLASS - 0.034))), Finish::FrostedGlass);
+            b.part(&object, "pane", pane(top + 0.016, self.height - 0.018), Finish::FrostedGlass);
         }
     }
 }

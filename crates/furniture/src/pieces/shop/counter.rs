@@ -2,11 +2,13 @@
 //! Customers are at +y, people who work at −y. On it may be a till, or a glass case with cakes and a coffee machine.
 
 use crate::builder::{Builder, Class, Object};
+use crate::joint::{Axis, Joint, JointKind};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, picture, rod, to_front, turned};
+use crate::pieces::joinery::{drawer_box, hollow_box};
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
 use crate::shape::{Reshape, rounded_box};
-use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
+use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
 
 /// A counter between customers and people who work.
 #[derive(Clone, Copy, Debug)]
@@ -107,6 +109,28 @@ impl Furniture for Counter {
 #[derive(Clone, Copy, Debug)]
 pub struct Till;
 
+impl Till {
+    /// The drawer for cash, which is pulled out to −y, in its case.
+    fn drawer(b: &mut Builder, object: &Object) {
+        // Boxes are open to +y, and turned.
+        let turned = |mesh: enfilade_geometry::Mesh| mesh.turned(Vec3::Z, std::f32::consts::PI);
+        let case = if b.has_joints() {
+            turned(hollow_box([-0.2, -0.2, 0.0], [0.2, 0.19, 0.1], 0.006))
+        } else {
+            board([-0.2, -0.19, 0.0], [0.2, 0.2, 0.1], 0.005)
+        };
+        b.part(object, "drawer", case, Finish::BlackMetal);
+        let from = b.part_count();
+        b.part(object, "drawer_front", board([-0.196, -0.2, 0.012], [0.196, -0.1898, 0.092], 0.002), Finish::BlackPlastic);
+        if b.has_joints() {
+            let inside = drawer_box([-0.196, 0.196, 0.0, 0.1], 0.1898, 0.34);
+            b.part(object, "drawer_box", turned(inside), Finish::BlackPlastic);
+        }
+        let joint = Joint { kind: JointKind::Drawer, axis: Axis::Slide(DVec3::NEG_Y), limits: [0.0, 0.27] };
+        b.joint(object, "drawer", &joint, from..b.part_count());
+    }
+}
+
 impl Furniture for Till {
     fn random(_rng: &mut Rng) -> Self {
         Self
@@ -118,8 +142,7 @@ impl Furniture for Till {
 
     fn build(&self, b: &mut Builder, pose: DAffine3, _rng: &mut Rng) {
         let object = b.object("till", Class::OtherProp, on(pose, Vec3::new(0.0, 0.0, CONTACT), 0.0));
-        b.part(&object, "drawer", board([-0.2, -0.19, 0.0], [0.2, 0.2, 0.1], 0.005), Finish::BlackMetal);
-        b.part(&object, "drawer_front", board([-0.196, -0.2, 0.012], [0.196, -0.1898, 0.092], 0.002), Finish::BlackPlastic);
+        Self::drawer(b, &object);
         let lean = |mesh: enfilade_geometry::Mesh| mesh.turned(Vec3::X, 0.35).moved(Vec3::new(0.0, 0.02, 0.27));
         b.part(&object, "housing", lean(rounded_box(Vec3::new(0.34, 0.03, 0.25), 0.008, 2)), Finish::BlackPlastic);
         let screen = picture(0.31, 0.21).turned(Vec3::Z, std::f32::consts::PI).moved(Vec3::new(0.0, -0.0156, 0.0));

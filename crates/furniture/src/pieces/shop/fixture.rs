@@ -3,6 +3,7 @@
 
 use super::goods::stock;
 use crate::builder::{Builder, Class};
+use crate::joint::Joint;
 use crate::materials::Finish;
 use crate::pieces::bedroom::{Garment, hang_garment};
 use crate::pieces::form::{all, cut_out, cylinder, picture, rod, rounded_rectangle};
@@ -106,6 +107,7 @@ impl Furniture for BottleFridge {
         b.part(&object, "shelves", all(shelves), Finish::Steel);
         for door in 0..self.doors {
             let at = 0.62 * (door as f32 - 0.5 * (self.doors - 1) as f32);
+            let from = b.part_count();
             let frame = crate::shape::picture_frame(0.612, 1.55, &[[0.0, 0.0], [0.0, 0.036], [0.04, 0.036], [0.04, 0.0]]);
             b.part(&object, &format!("door_{}", door + 1), frame.moved(Vec3::new(at, front + 0.001, 0.945)), Finish::BlackPlastic);
             let pane = picture(0.54, 1.48).moved(Vec3::new(at, front + 0.02, 0.945));
@@ -113,6 +115,8 @@ impl Furniture for BottleFridge {
             let handle = rod([at - 0.285, front + 0.045, 0.8], [at - 0.285, front + 0.045, 1.15], 0.0045, 10);
             let ends = [0.81f32, 1.14].map(|z| rod([at - 0.285, front + 0.03, z], [at - 0.285, front + 0.045, z], 0.004, 8));
             b.part(&object, &format!("handle_{}", door + 1), handle.with(all(ends)), Finish::Steel);
+            let hinge = Joint::cupboard(at + 0.306, front + 0.037, 1.0);
+            b.joint(&object, &format!("door_{}", door + 1), &hinge, from..b.part_count());
         }
         for (level, &z) in levels.iter().enumerate() {
             let next = levels.get(level + 1).copied().unwrap_or(1.7);

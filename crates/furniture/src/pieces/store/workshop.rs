@@ -4,6 +4,7 @@
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cut_out, cylinder, rod, to_front, wire};
+use crate::pieces::joinery::{body_box, pull};
 use crate::pieces::{Furniture, Surface, board, grained};
 use crate::shape::{Reshape, bevelled_box, rounded_box};
 use enfilade_geometry::Mesh;
@@ -73,13 +74,17 @@ impl Workbench {
         let inner = 0.5 * self.width - 0.14;
         let (x0, x1) = if s > 0.0 { (inner - 0.46, inner) } else { (-inner, 0.46 - inner) };
         let low = under - 0.42;
-        b.part(object, "case", board([x0, back, low], [x1, front, under], 0.003), self.frame);
+        let case = body_box(b, [x0, back, low], [x1, front, under], 0.003);
+        b.part(object, "case", case, self.frame);
         for k in 0..3 {
             let z = low + 0.01 + 0.135 * k as f32;
+            let from = b.part_count();
             let face = board([x0 + 0.008, front - 0.0005, z], [x1 - 0.008, front + 0.018, z + 0.127], 0.003);
             b.part(object, &format!("drawer_{}", k + 1), grained(face, rng), self.frame);
-            let pull = rounded_box(Vec3::new(0.14, 0.018, 0.02), 0.006, 2).moved(Vec3::new(0.5 * (x0 + x1), front + 0.0255, z + 0.085));
-            b.part(object, &format!("pull_{}", k + 1), pull, Finish::BlackMetal);
+            let handle = rounded_box(Vec3::new(0.14, 0.018, 0.02), 0.006, 2).moved(Vec3::new(0.5 * (x0 + x1), front + 0.0255, z + 0.085));
+            b.part(object, &format!("pull_{}", k + 1), handle, Finish::BlackMetal);
+            let rect = [x0 + 0.008, x1 - 0.008, z, z + 0.127];
+            pull(b, object, &format!("drawer_{}", k + 1), from, rect, front, front - back - 0.03, Finish::Wood);
         }
     }
 

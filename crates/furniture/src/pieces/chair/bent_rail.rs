@@ -1,16 +1,16 @@
 //! A dining chair of wood, 46 × 50 cm and 80 cm high: a hollowed seat on four round legs, of which the rear ones go on upward and carry a
 //! bent backrest; one object of class chair. Only its pad varies: every second chair has one, in an accent of the palette.
 
-use super::{Furniture, grained, standing};
 use crate::builder::{Builder, Class};
 use crate::materials::Finish;
+use crate::pieces::{Furniture, grained, standing};
 use crate::shape::{Reshape, grid, rounded_box, tube};
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::PI;
 
 /// A dining chair: a seat on four round legs with a bent backrest.
 #[derive(Clone, Copy, Debug)]
-pub struct Chair {
+pub struct BentRail {
     /// True for a seat pad in the palette's cloth.
     pub pad: bool,
 }
@@ -18,7 +18,7 @@ pub struct Chair {
 /// Height of the middle of the seat board, metres: common seats are 44 to 47 cm high.
 const SEAT: f32 = 0.455;
 
-impl Furniture for Chair {
+impl Furniture for BentRail {
     fn random(rng: &mut Rng) -> Self {
         Self { pad: rng.below(2) == 0 }
     }
