@@ -7,9 +7,10 @@ use enfilade_math::{DVec3, Vec3};
 use enfilade_scene::{Body, BodyStates};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Without life, which leaves ranges of joints free.
 fn with(states: Option<States>) -> Home {
     let rooms = vec![RoomKind::Hall, RoomKind::Bedroom, RoomKind::Kitchen, RoomKind::Bathroom];
-    home(&HomeConfig { rooms, states, ..HomeConfig::of_seed(5) })
+    home(&HomeConfig { rooms, states, lived_in: 0.0, ..HomeConfig::of_seed(5) })
 }
 
 fn all(word: StateWord) -> Option<States> {
@@ -44,6 +45,15 @@ fn things_open_as_far_as_they_are_asked_to_and_as_they_can() {
         assert!(found.is_empty(), "{word}: {}", of_joints.join("\n"));
         assert_eq!(home.scene.validate(), Ok(()));
         assert!(home.scene.is_still(), "{word}");
+    }
+}
+
+#[test]
+fn what_people_leave_is_not_in_the_way_of_what_opens() {
+    let rooms = vec![RoomKind::Bedroom, RoomKind::Kitchen];
+    for states in [all(StateWord::Random), all(StateWord::Open)] {
+        let home = home(&HomeConfig { rooms: rooms.clone(), states, lived_in: 0.8, ..HomeConfig::of_seed(7) });
+        assert_eq!(faults(&home), []);
     }
 }
 

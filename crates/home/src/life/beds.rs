@@ -42,6 +42,12 @@ fn unmake(stage: &mut Stage, bed: &str, rng: &mut Rng) {
     };
     let Some(cover) = COVERS.into_iter().find(|cover| find(cover).is_some()) else { return };
     let (Some(mattress), Some(upper), Some(lower)) = (find("mattress"), find(cover), find(&format!("{cover}_lining"))) else { return };
+    // The upper bed of a bunk has no frame: its cover carries it.
+    let own =
+        |name: &str| ["mattress", cover].iter().any(|own| name.strip_prefix(bed).is_some_and(|part| part.starts_with(&format!("/{own}"))));
+    if stage.home.scene.parts.iter().all(|part| object_of(&part.name) != bed || own(&part.name)) {
+        return;
+    }
     let pose = stage.home.scene.parts[mattress].world_from_mesh;
     let lying = stage.home.scene.meshes[stage.home.scene.parts[mattress].mesh as usize].bounds();
     let sides = [upper, lower].map(|part| (stage.home.scene.parts[part].clone(), stage.home.labels.parts[part]));

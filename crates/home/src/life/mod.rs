@@ -17,6 +17,7 @@ mod table;
 mod textiles;
 mod things;
 mod walls;
+mod ways;
 mod wish;
 
 use crate::place::Floor;
@@ -26,7 +27,7 @@ use enfilade_furniture::{Builder, DecorConfig, Finish, family_of, left_thing, ob
 use enfilade_math::{Bounds3, DAffine3, Rng, hash_text};
 use enfilade_scene::{Labels, Scene};
 use stage::{Bundle, Stage};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use table::{At, ROWS, Row, What, interpolated};
 use wish::Wish;
@@ -146,8 +147,13 @@ impl Life {
             return;
         }
         let mut stage = Stage::new(home);
+        let furniture: BTreeSet<String> = stage.bodies.iter().map(|body| body.name.clone()).collect();
         beds::sleep_in(&mut stage, &self.rng, self.lived_in);
         askew::move_about(&mut stage, &mut self.floors, &self.rng, self.lived_in);
+        let moved = stage.moved().cloned().collect();
+        for object in ways::closed_by(&stage, moved) {
+            stage.put_back(&object);
+        }
         // Cloth falls on what lies there already.
         for cloth in [false, true] {
             for wish in self.wishes.iter().filter(|wish| wish.cloth.is_some() == cloth) {
@@ -159,6 +165,11 @@ impl Life {
                     (Some(sort), _) => cloth::throw(&mut stage, &mut self.floors, wish, bundle, sort),
                 }
             }
+        }
+        let put = stage.bodies.iter().map(|body| &body.name).filter(|name| !furniture.contains(*name)).cloned().collect();
+        let away = ways::closed_by(&stage, put);
+        if !away.is_empty() {
+            stage.remove(|part| away.iter().any(|object| object == object_of(part)));
         }
         marks::wear(&mut stage, &self.rng, self.lived_in);
     }

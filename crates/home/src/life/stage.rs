@@ -36,6 +36,8 @@ pub struct Stage<'a> {
     pub bodies: Vec<Body>,
     number: BTreeMap<String, usize>,
     grounds: BTreeMap<String, Ground>,
+    /// How objects were moved that stood in the home, by what they were moved with.
+    nudged: Vec<(Vec<String>, DAffine3)>,
 }
 
 impl<'a> Stage<'a> {
@@ -43,7 +45,7 @@ impl<'a> Stage<'a> {
     pub fn new(home: &'a mut Home) -> Self {
         let bodies = bodies_of(&home.scene);
         let number = bodies.iter().enumerate().map(|(i, body)| (body.name.clone(), i)).collect();
-        Self { home, bodies, number, grounds: BTreeMap::new() }
+        Self { home, bodies, number, grounds: BTreeMap::new(), nudged: Vec::new() }
     }
 
     /// The body of an object.
@@ -177,25 +179,47 @@ impl<'a> Stage<'a> {
         };
         let Some(by) = by else { return false };
         let pose = DAffine3::from_translation(Vec3::new(0.0, 0.0, by).as_dvec3()) * turn;
-        for part in self.home.scene.parts.iter_mut().filter(|part| objects.iter().any(|object| object_of(&part.name) == object)) {
+        self.shift(objects, pose);
+        self.nudged.push((objects.to_vec(), pose));
+        true
+    }
+
+    /// Moves objects wherever that leads.
+    fn shift(&mut self, objects: &[String], pose: DAffine3) {
+        let is_moved = |name: &str| objects.iter().any(|object| object_of(name) == object);
+        for part in self.home.scene.parts.iter_mut().filter(|part| is_moved(&part.name)) {
             part.world_from_mesh = pose * part.world_from_mesh;
         }
         for object in objects {
             if let Some(front) = self.home.fronts.get_mut(object) {
-                *front = turn.transform_vector3(*front);
+                *front = pose.transform_vector3(*front);
+            }
+            if let Some(&i) = self.number.get(object) {
+                self.bodies[i] = turned(&self.bodies[i], pose);
             }
         }
         for body in &mut self.home.scene.bodies {
-            if objects.iter().any(|object| object_of(&body.name) == object)
+            if is_moved(&body.name)
                 && let Some(carried) = body.carried(&pose)
             {
                 *body = carried;
             }
         }
-        for (k, &i) in group.iter().enumerate() {
-            self.bodies[i] = turned(&moved[k], DAffine3::from_translation(Vec3::new(0.0, 0.0, by).as_dvec3()));
-        }
         self.grounds.clear();
+    }
+
+    /// Names of the objects that were moved, the first of each move.
+    pub fn moved(&self) -> impl Iterator<Item = &String> {
+        self.nudged.iter().filter_map(|(objects, _)| objects.first())
+    }
+
+    /// Moves an object back, with what was moved with it; true if it had been moved.
+    pub fn put_back(&mut self, object: &str) -> bool {
+        let Some(at) = self.nudged.iter().position(|(objects, _)| objects.first().is_some_and(|first| first == object)) else {
+            return false;
+        };
+        let (objects, pose) = self.nudged.remove(at);
+        self.shift(&objects, pose.inverse());
         true
     }
 
