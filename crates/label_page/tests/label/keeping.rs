@@ -320,7 +320,7 @@ mod copied {
     }
 
     fn sources(at: &Path) -> [PathBuf; 2] {
-        let dataset = Dataset::create(&at.join("dataset")).unwrap();
+        let dataset = Dataset::create(at.join("dataset")).unwrap();
         dataset.write_scene("room", &scene()).unwrap();
         [package(at), at.join("dataset")]
     }
