@@ -27,6 +27,7 @@ mod review;
 mod routes;
 mod save;
 mod scene;
+mod scene_error;
 mod selection;
 mod session;
 mod shape;

@@ -3,11 +3,12 @@
 use super::face_colors::FaceColors;
 use super::options::AnnotateOptions;
 use super::planned::{PlannedCamera, PlannedFrame, cameras_of_file, field_of_view, is_plain};
+use super::scene_error::SceneError;
 use super::unsplit::unsplit;
 use super::without_log;
 use enfilade_dataset::{Dataset, DatasetError, MeshFiles, MeshGeometry, WORKDIR, mesh_names, quoted, scene_hash};
 use enfilade_frame::Pass;
-use enfilade_import::{Format, ImportOptions};
+use enfilade_import::ImportOptions;
 use enfilade_math::Vec3;
 use enfilade_scene::{Cx, PartLabel, Pose, Warning, WorldMesh};
 use std::path::{Path, PathBuf};
@@ -50,52 +51,6 @@ pub struct AnnotatedScene {
     pub meters_per_unit: f64,
     /// True when a label stage makes the tables of labels and objects in that folder from the log.
     pub has_label_stage: bool,
-}
-
-/// Why the scene cannot be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum SceneError {
-    /// The path is not one of the things that can be annotated.
-    #[error(
-        "{path}: {problem}; expected a scene file ({}), a dataset, a scene's folder in it, or a Hypersim mesh folder",
-        Format::extensions()
-    )]
-    Path {
-        /// The path given.
-        path: String,
-        /// The problem with it.
-        problem: String,
-    },
-    /// A dataset has several scenes, or not the one that was named.
-    #[error("{path}: {problem}; name one with --scene: {scenes}")]
-    Scene {
-        /// The dataset.
-        path: String,
-        /// The problem.
-        problem: String,
-        /// The scenes there are.
-        scenes: String,
-    },
-    /// The labels in the folder of labels cannot be those of the scene.
-    #[error(
-        "{}: {problem}; copy annotation_log.jsonl with the tables, or name another folder with --labels: the first edit would overwrite these",
-        folder.display()
-    )]
-    Labels {
-        /// The folder.
-        folder: PathBuf,
-        /// The problem.
-        problem: String,
-    },
-    /// The table of labels in the folder of labels cannot be read.
-    #[error(transparent)]
-    Table(#[from] enfilade_label::TableError),
-    /// The scene file cannot be imported.
-    #[error(transparent)]
-    Import(#[from] enfilade_import::ImportError),
-    /// The mesh folder cannot be read.
-    #[error(transparent)]
-    Dataset(#[from] enfilade_dataset::DatasetError),
 }
 
 impl AnnotatedScene {

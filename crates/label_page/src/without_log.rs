@@ -1,6 +1,6 @@
 //! Labels in a folder without the log of the edits that made them, as where tables alone were copied.
 
-use super::scene::SceneError;
+use super::scene_error::SceneError;
 use enfilade_dataset::{DatasetError, MeshFiles, mesh_names};
 use enfilade_label::LabelTable;
 use enfilade_scene::{Cx, PartLabel, Warning};

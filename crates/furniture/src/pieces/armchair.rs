@@ -12,9 +12,9 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 pub enum Armchair {
     /// A frame of wooden rods with two loose cushions.
     Rods(RodChair),
-    /// Upholstered, in a style of the table [`EASY_CHAIRS`].
+    /// Upholstered, in a style of the table `EASY_CHAIRS`.
     Upholstered(Upholstered),
-    /// With an open frame in a style of the table [`EASY_FRAMES`].
+    /// With an open frame in a style of the table `EASY_FRAMES`.
     Open(OpenFrame),
     /// On bent frames of wood.
     Bentwood(BentwoodChair),

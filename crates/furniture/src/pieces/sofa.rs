@@ -12,9 +12,9 @@ use enfilade_math::{DAffine3, Rng, Vec3};
 pub enum Sofa {
     /// With loose seat and back cushions on a low frame.
     Loose(LooseSofa),
-    /// In a style of the table [`SOFAS`].
+    /// In a style of the table `SOFAS`.
     Upholstered(Upholstered),
-    /// With an open frame in a style of the table [`SOFA_FRAMES`].
+    /// With an open frame in a style of the table `SOFA_FRAMES`.
     Open(OpenFrame),
     /// A chaise longue.
     Chaise(ChaiseLongue),

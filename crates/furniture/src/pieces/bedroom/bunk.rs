@@ -1,6 +1,6 @@
 //! Beds of children and guests: with a back along one side, and bunks. Coordinates are those of [`super::bed`].
 
-use super::bed::Bed;
+use super::bed_frame::Bed;
 use super::frames::{BESIDE, FOOT, rails, slats};
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;

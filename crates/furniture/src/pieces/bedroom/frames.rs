@@ -1,7 +1,7 @@
 //! Frames of beds beside those of wooden rails, upholstery and plain metal: with four posts, with a curved head and foot, low platforms, frames
 //! with drawers, and ornate metal. Coordinates are those of [`super::bed`]: the mattress is about the origin, its head at −y.
 
-use super::bed::Bed;
+use super::bed_frame::Bed;
 use crate::builder::{Builder, Object};
 use crate::joint::{Axis, Joint, JointKind};
 use crate::materials::Finish;

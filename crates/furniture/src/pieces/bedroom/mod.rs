@@ -2,6 +2,7 @@
 //! folded.
 
 mod bed;
+mod bed_frame;
 mod bedding;
 mod bunk;
 mod clothes;
@@ -13,7 +14,7 @@ mod upholstered;
 mod wardrobe;
 mod wooden;
 
-pub use bed::Bed;
+pub use bed_frame::Bed;
 pub use clothes::{FoldedClothes, hang_garment};
 pub use drawers::{Dresser, Nightstand};
 pub use dressing::{Bench, DressingTable, LaundryBasket};

@@ -1,6 +1,6 @@
 //! Beds on an upholstered box: with sides, or as a box spring, and a padded headboard in one of several ways or none.
 
-use super::bed::{Bed, BedFrame, OUT, PADDED};
+use super::bed_frame::{Bed, BedFrame, OUT, PADDED};
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
 use crate::pieces::seating::{buttoned, upright};

@@ -1,6 +1,6 @@
 //! Beds with rails of wood, and those of plain metal tubes.
 
-use super::bed::{BOARD, Bed, BedFrame, OUT, RAIL};
+use super::bed_frame::{BOARD, Bed, BedFrame, OUT, RAIL};
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{all, rod};

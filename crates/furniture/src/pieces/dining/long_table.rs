@@ -1,9 +1,9 @@
 //! A rectangular dining table for four to eight people, 130 to 230 × 82 to 98 cm, of class table, in a style of the table [`STYLES`]. Some
 //! are cut for a leaf in the middle, and one in three is laid for a meal at its long sides. The long side is along x.
 
-use super::stand::{STYLES, Stand, Style};
+use super::long_kind::{BOARD, LongTable, Outline, Stand, TOP};
+use super::stand::{STYLES, Style};
 use crate::builder::{Builder, Class, Object};
-use crate::materials::Finish;
 use crate::pieces::form::{all, cut_out, rounded_rectangle};
 use crate::pieces::style::drawn;
 use crate::pieces::tableware::PlaceSetting;
@@ -11,47 +11,8 @@ use crate::pieces::{Furniture, Surface, board, grained, on};
 use crate::shape::Reshape;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
 
-/// A rectangular dining table.
-#[derive(Clone, Copy, Debug)]
-pub struct LongTable {
-    /// Length along x.
-    pub length: f32,
-    /// Width along y.
-    pub width: f32,
-    /// The outline of the top.
-    pub outline: Outline,
-    /// The stand of the table.
-    pub stand: Stand,
-    /// The top is cut for a leaf in the middle, to be pulled out.
-    pub extends: bool,
-    /// Finish of the top.
-    pub finish: Finish,
-    /// Finish of the stand.
-    pub below: Finish,
-    /// The setting of every place along the long sides, if the table is laid.
-    pub laid: Option<PlaceSetting>,
-}
-
-/// The outline of a table's top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outline {
-    /// A rectangle.
-    Rectangle,
-    /// A rectangle with round corners.
-    Rounded,
-    /// An oval: a superellipse with the exponent 2.6.
-    Oval,
-    /// Planks side by side between two across their ends.
-    Planks,
-}
-
 /// Exponent of an oval top.
 const OVAL: f32 = 2.6;
-
-/// Height of the top's surface, metres: EN 1729 and common practice have 720 to 760 mm.
-pub(super) const TOP: f32 = 0.75;
-/// Thickness of the top, metres.
-pub(super) const BOARD: f32 = 0.032;
 
 impl LongTable {
     /// Places along one long side: 60 cm for a person (Neufert).

@@ -3,6 +3,7 @@
 mod bench;
 mod chairs;
 mod glass_cabinet;
+mod long_kind;
 mod long_table;
 mod sideboard;
 mod stand;
@@ -11,6 +12,6 @@ mod stool;
 pub use bench::DiningBench;
 pub use chairs::{ShellChair, SpindleChair, UpholsteredChair};
 pub use glass_cabinet::GlassCabinet;
-pub use long_table::LongTable;
+pub use long_kind::LongTable;
 pub use sideboard::Sideboard;
 pub use stool::BarStool;

@@ -1,6 +1,6 @@
 //! The stands of long tables, and the styles of these: which outline goes with which stand, and in which finishes.
 
-use super::long_table::{BOARD, LongTable, Outline, TOP};
+use super::long_kind::{BOARD, LongTable, Outline, Stand, TOP};
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
 use crate::materials::Finish::{BlackMetal, Chrome, DarkWood, DrinkingGlass, MarbleTop, WhiteLacquer, WhitePaint, WhitePlastic, Wood};
@@ -10,33 +10,6 @@ use crate::pieces::{board, grained, leg, standing};
 use crate::shape::{Reshape, bevelled_box};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Rng, Vec2, Vec3};
-
-/// The stand of a long table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stand {
-    /// Square legs in the corners and an apron.
-    Corners,
-    /// Round legs that slant outward.
-    Slanted,
-    /// Two frames of metal.
-    Frames,
-    /// Crossed beams at either end, with a beam between them.
-    Trestle,
-    /// Two turned columns on feet.
-    Columns,
-    /// Thick turned legs and an apron, as of farm kitchens.
-    Turned,
-    /// Two crosses of metal.
-    Crosses,
-    /// Legs of bent wire.
-    Hairpins,
-    /// Two boards and a rail between them.
-    Panels,
-    /// One thick column on a broad foot.
-    Column,
-    /// Two trestles that fold: each a pair of frames that lean against each other.
-    Folding,
-}
 
 /// An outline, a stand, and the finishes of top and stand, drawn together.
 pub type Style = (Outline, Stand, &'static [[Finish; 2]]);

@@ -2,7 +2,7 @@
 //! sides, and the back leans by 14 to 20°. One seat is 58 to 66 cm wide.
 
 use super::quilt::upright;
-use super::styles::Frame;
+use super::styles::{Frame, Sides};
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{all, rod};
@@ -10,21 +10,6 @@ use crate::pieces::{CONTACT, board, grained, standing};
 use crate::shape::{Reshape, padded_box, tube};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec2, Vec3};
-
-/// The sides of an open frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sides {
-    /// Two posts, and a flat board on which the arm rests.
-    Planks,
-    /// Square posts and upright slats below the arm, after those of the Mission style.
-    Slats,
-    /// A bent tube that is front leg, arm and rear leg.
-    Hoops,
-    /// A bent tube, and thin sticks below it, as of rattan.
-    Sticks,
-    /// Two posts and an arm on curved runners, on which the chair rocks.
-    Rockers,
-}
 
 /// A sofa or easy chair with an open frame.
 #[derive(Clone, Copy, Debug)]

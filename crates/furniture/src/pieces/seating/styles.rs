@@ -3,7 +3,6 @@
 use super::arms::Arms::{Box, Flared, None as Armless, Rolled, Wings};
 use super::back::Back::{Buttoned, Camel, Channels, Cushions, Pillowed, Tight};
 use super::feet::SeatFeet::{Blocks, Buns, Plinth, Runners, Skirt, Tapered};
-use super::frame::Sides;
 use super::upholstered::Seat;
 use crate::materials::Finish;
 use crate::materials::Finish::{
@@ -187,6 +186,21 @@ pub const SOFAS: &[(u32, Seat)] = &[
         },
     ),
 ];
+
+/// The sides of an open frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Two posts, and a flat board on which the arm rests.
+    Planks,
+    /// Square posts and upright slats below the arm, after those of the Mission style.
+    Slats,
+    /// A bent tube that is front leg, arm and rear leg.
+    Hoops,
+    /// A bent tube, and thin sticks below it, as of rattan.
+    Sticks,
+    /// Two posts and an arm on curved runners, on which the chair rocks.
+    Rockers,
+}
 
 /// Sides, finish of the frame, covers, and one mattress over all seats.
 pub type Frame = (Sides, Finish, &'static [Finish], bool);

@@ -1,6 +1,6 @@
 //! A low cabinet with two doors and an open compartment between them for a player, on slanted legs.
 
-use super::TelevisionBench;
+use super::bench::TelevisionBench;
 use crate::builder::{Builder, Class};
 use crate::joint::Joint;
 use crate::materials::Finish;

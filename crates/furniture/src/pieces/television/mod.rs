@@ -1,31 +1,21 @@
 //! A low cabinet (class cabinet) with a television set on it (class television) or below one on the wall: with doors, with drawers, with open
 //! shelves, or of glass, 95 to 190 cm wide and 38 to 52 cm high. A row of [`STYLES`] is a style with its weight.
 
+mod bench;
 mod doors;
 mod open;
 mod set;
+mod set_kind;
 mod tube;
 
-pub use set::TelevisionSet;
+pub use bench::{BenchStyle, TelevisionBench};
+pub use set_kind::TelevisionSet;
 
 use super::style::drawn;
 use super::{CONTACT, Furniture, on};
 use crate::builder::Builder;
 use crate::materials::Finish;
 use enfilade_math::{DAffine3, Rng, Vec3};
-
-/// The build of a cabinet for a television.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BenchStyle {
-    /// Two doors, and an open compartment between them; white or wooden fronts.
-    Doors(bool),
-    /// Two or three drawers side by side below an open compartment.
-    Drawers(Finish),
-    /// A board on runners of metal with a shelf below.
-    Open(Finish),
-    /// Three panes on metal posts.
-    Glass,
-}
 
 /// A style, its smallest and largest width, and its height, metres.
 type Row = (BenchStyle, [f32; 2], f32);
@@ -41,21 +31,6 @@ const STYLES: &[(u32, Row)] = &[
     (1, (BenchStyle::Open(Finish::DarkWood), [1.0, 1.4], 0.5)),
     (2, (BenchStyle::Glass, [0.95, 1.25], 0.48)),
 ];
-
-/// A low cabinet, and perhaps a television set on it.
-#[derive(Clone, Copy, Debug)]
-pub struct TelevisionBench {
-    /// The build of the cabinet.
-    pub style: BenchStyle,
-    /// Width of the cabinet.
-    pub width: f32,
-    /// Depth of the cabinet.
-    pub depth: f32,
-    /// Height of its top.
-    pub top: f32,
-    /// The set on it.
-    pub set: Option<TelevisionSet>,
-}
 
 /// Least depth of a cabinet, metres.
 const DEPTH: f32 = 0.40;

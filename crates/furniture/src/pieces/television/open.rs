@@ -1,6 +1,6 @@
 //! Cabinets for televisions with drawers, with an open shelf, and of glass.
 
-use super::TelevisionBench;
+use super::bench::TelevisionBench;
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
 use crate::pieces::form::{all, corners, cylinder};

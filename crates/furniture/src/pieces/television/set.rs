@@ -2,6 +2,7 @@
 //! and boxes with a picture tube. A row of [`STYLES`] is a style with its weight. Half of them are on and show a picture, the others reflect
 //! the room. The origin is the middle of the foot.
 
+use super::set_kind::{SetStand, TelevisionSet};
 use super::tube;
 use crate::builder::{Builder, Class, Object};
 use crate::materials::Finish;
@@ -11,23 +12,6 @@ use crate::pieces::{Furniture, board};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, Rng, Vec3};
-
-/// What a flat set stands on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SetStand {
-    /// A foot across the depth below either end.
-    Feet,
-    /// Two blades of metal that spread below either end.
-    Blades,
-    /// A neck in the middle on a plate.
-    Plate,
-    /// A neck in the middle on a bent bar.
-    Bar,
-    /// A case of loudspeakers below the screen, on a plate: sets of about 2005.
-    Speakers,
-    /// None: the whole set is a box with a picture tube, 4:3.
-    Tube,
-}
 
 /// A style of sets.
 #[derive(Clone, Copy, Debug)]
@@ -68,21 +52,6 @@ const STYLES: &[(u32, Style)] = &[
     ),
 ];
 
-/// A television set.
-#[derive(Clone, Copy, Debug)]
-pub struct TelevisionSet {
-    /// What it stands on.
-    pub stand: SetStand,
-    /// Width of the set.
-    pub width: f32,
-    /// Width of the frame beside the screen.
-    pub bezel: f32,
-    /// Finish of the case.
-    pub finish: Finish,
-    /// What it shows; `None` is off.
-    pub shows: Option<u8>,
-}
-
 /// Height of the lower edge of flat sets over their foot, metres.
 const UNDER: f32 = 0.062;
 /// Depth of a flat set, metres.
@@ -93,21 +62,6 @@ impl TelevisionSet {
     pub fn shown(rng: &mut Rng) -> Option<u8> {
         let picture = [0, 4, 8, 3][rng.below(4)];
         (rng.below(2) == 0).then_some(picture)
-    }
-
-    /// Width and height of the screen.
-    pub fn screen(&self) -> [f32; 2] {
-        let width = self.width - 2.0 * self.bezel;
-        [width, width * if self.stand == SetStand::Tube { 0.75 } else { 0.5625 }]
-    }
-
-    /// Depth of the set.
-    pub fn depth(&self) -> f32 {
-        match self.stand {
-            SetStand::Feet | SetStand::Blades => 0.24,
-            SetStand::Plate | SetStand::Bar | SetStand::Speakers => 0.23,
-            SetStand::Tube => 0.42 + 0.16 * (self.width - 0.46) / 0.28,
-        }
     }
 
     fn flat(&self, b: &mut Builder, tv: &Object) {

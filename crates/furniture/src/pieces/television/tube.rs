@@ -1,6 +1,6 @@
 //! Television sets with a picture tube.
 
-use super::TelevisionSet;
+use super::set_kind::TelevisionSet;
 use crate::builder::{Builder, Object};
 use crate::materials::Finish;
 use crate::pieces::board;
