@@ -32,7 +32,7 @@ struct Told {
 
 impl Told {
     fn new(root: &Path) -> Self {
-        let home = home(&HomeConfig { seed: 5, rooms: vec![RoomKind::Study], lived_in: 0.0, ..HomeConfig::default() });
+        let home = home(&HomeConfig { seed: 4, rooms: vec![RoomKind::Study], lived_in: 0.0, ..HomeConfig::default() });
         let dataset = Dataset::create(root).unwrap();
         dataset.write_scene("home", &home.scene).unwrap();
         dataset.write_label_tables("home", &home.labels).unwrap();
