@@ -18,7 +18,7 @@ mode = { kind = "walk" }
 [[scene]]
 name = "home"
 seed = 5
-home = { seed = 1, rooms = ["bedroom"], clutter = 0, lived_in = 0 }
+home = { seed = 6, rooms = ["bedroom"], clutter = 0, lived_in = 0 }
 cameras = ["bedroom_1"]
 """
 
