@@ -27,7 +27,7 @@ pub struct Ground {
 /// A level place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// Its greatest height.
+    /// The greatest height in it.
     pub top: f32,
     /// How much higher that is than its smallest.
     pub spread: f32,

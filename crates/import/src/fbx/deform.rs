@@ -6,7 +6,7 @@
 use super::matrix::affine;
 use super::mesh;
 use crate::assembly::Assembly;
-use crate::motion::{LENGTH_M, Shapes, shapes};
+use crate::motion::{MOST_STATES, Shapes, cuts, length_in, place, shapes};
 use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{PartId, Shape};
@@ -63,18 +63,14 @@ impl Clip {
         let mut ends: Vec<f64> = keys.filter(|key_s| (0.0..=length).contains(key_s)).chain([0.0, length]).collect();
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-        let steps = |pair: &[f64]| {
-            let (from, to) = (pair[0], pair[1]);
-            let steps = ((to - from) / STEP_S).ceil().max(1.0);
-            (1..steps as usize).map(move |step| from + (to - from) * step as f64 / steps)
-        };
+        let steps = |pair: &[f64]| cuts(pair[0], pair[1], (pair[1] - pair[0]) / STEP_S, MOST_STATES as f64);
         ends.iter().copied().chain(ends.windows(2).flat_map(steps)).collect()
     }
 
     /// Makes the parts that deform bodies, each with the shapes that it has over time.
     pub(super) fn follow(&self, parts: &[Deforming], a: &mut Assembly) {
-        let scales = parts.iter().map(|part| part.file_from_mesh.matrix3.determinant().abs().cbrt());
-        let Some(scale) = scales.reduce(f64::max).filter(|scale| *scale > 0.0) else { return };
+        let lengths = parts.iter().map(|part| length_in(&part.file_from_mesh, a.meters_per_unit()));
+        let Some(length) = lengths.reduce(f64::min).filter(|length| length.is_finite()) else { return };
         let rest: Vec<Mesh> = parts.iter().map(|part| part.mesh(&self.scene)).collect();
         let triangles: Vec<&[[u32; 3]]> = rest.iter().map(|mesh| mesh.triangles.as_slice()).collect();
         let mut turned = vec![false; parts.len()];
@@ -89,7 +85,7 @@ impl Clip {
             }
             Ok(all)
         };
-        let refused = match shapes(self.moments(), false, LENGTH_M / (a.meters_per_unit() * scale), |time_s, _| all(time_s)) {
+        let refused = match shapes(self.moments(), false, length, |time_s, _| all(time_s)) {
             Ok(Shapes::Constant) => return,
             Ok(Shapes::Timed((times_s, together))) => {
                 let mut from = [0; 2];
@@ -139,10 +135,8 @@ impl Deforming {
         if map == DAffine3::IDENTITY {
             return (mesh, false);
         }
-        let normals = map.matrix3.inverse().transpose();
-        mesh.positions.iter_mut().for_each(|p| *p = map.transform_point3(p.as_dvec3()).as_vec3());
-        mesh.normals.iter_mut().for_each(|n| *n = (normals * n.as_dvec3()).normalize_or_zero().as_vec3());
-        (mesh, map.matrix3.determinant() < 0.0)
+        let is_mirrored = place(&mut mesh, &map);
+        (mesh, is_mirrored)
     }
 }
 

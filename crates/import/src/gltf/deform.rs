@@ -6,7 +6,7 @@ use super::primitive::{self, Pose};
 use super::skin::{Bindings, joints, parents, placements};
 use crate::ImportError;
 use crate::assembly::{Assembly, TimedShapes};
-use crate::motion::{LENGTH_M, Shapes, Side, shapes};
+use crate::motion::{Shapes, Side, length_in, place, shapes};
 use enfilade_geometry::Mesh;
 use enfilade_math::DAffine3;
 use enfilade_scene::Shape;
@@ -70,8 +70,7 @@ impl<'d> Deforms<'d> {
             warn("it is in several places, or flat at rest, within a node whose scale changes", a);
             return Ok(None);
         }
-        let length =
-            LENGTH_M / (a.meters_per_unit() * if bound.skin.is_some() { 1.0 } else { file_from_mesh.matrix3.determinant().abs().cbrt() });
+        let length = length_in(if bound.skin.is_some() { &DAffine3::IDENTITY } else { file_from_mesh }, a.meters_per_unit());
         let Some(stored) = primitive::unmoved(self.document, bound.primitive, bound.uv_set, bound.place, a)? else { return Ok(None) };
         let bindings = bound.skin.map(|_| primitive::bindings(self.document, bound.primitive, &stored, bound.place, a)).transpose()?;
         let (mut turned, jumps) = (false, self.animations.jump());
@@ -132,12 +131,4 @@ impl<'d> Deforms<'d> {
         let pose = Pose { weights: &weights, joints: joints.as_deref() };
         primitive::posed(self.document, (bound.primitive, bindings), stored.clone(), &pose, bound.place, a)
     }
-}
-
-/// Places the vertices of a mesh. True if that mirrors it.
-fn place(mesh: &mut Mesh, map: &DAffine3) -> bool {
-    let normals = map.matrix3.inverse().transpose();
-    mesh.positions.iter_mut().for_each(|p| *p = map.transform_point3(p.as_dvec3()).as_vec3());
-    mesh.normals.iter_mut().for_each(|n| *n = (normals * n.as_dvec3()).normalize_or_zero().as_vec3());
-    map.matrix3.determinant() < 0.0
 }

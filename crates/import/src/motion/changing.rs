@@ -1,7 +1,7 @@
 //! Nodes whose placement in their parent changes with time.
 
 use super::rigid::rigid;
-use super::{LENGTH_M, Side};
+use super::{Side, length_in};
 use crate::assembly::Assembly;
 use enfilade_math::DAffine3;
 use enfilade_scene::BodyId;
@@ -25,7 +25,7 @@ pub(crate) struct Changing<'c> {
 impl Changing<'_> {
     /// The body that the node is; `None` where it stays, with a warning if it should not.
     pub(crate) fn body(self, (file_from_parent, bearer): (DAffine3, Option<BodyId>), a: &mut Assembly) -> Option<BodyId> {
-        let length = LENGTH_M / (a.meters_per_unit() * file_from_parent.matrix3.determinant().abs().cbrt());
+        let length = length_in(&file_from_parent, a.meters_per_unit());
         let motion = match rigid(self.rest, self.moments, length, self.local) {
             Ok(motion) => motion,
             Err(problem) => {

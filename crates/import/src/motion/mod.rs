@@ -9,13 +9,14 @@ mod shapes;
 
 pub(crate) use changing::Changing;
 pub(crate) use rigid::between_placements;
-pub(crate) use shapes::{Shapes, shapes};
+pub(crate) use shapes::{Shapes, place, shapes};
 
 use crate::assembly::TimedPoses;
+use enfilade_math::DAffine3;
 use enfilade_scene::RigidPose;
 
 /// Greatest distance by which straight pieces depart from the file's motion, metres.
-pub(crate) const LENGTH_M: f64 = 1e-4;
+const LENGTH_M: f64 = 1e-4;
 /// States a second of what does not move evenly.
 pub(crate) const RATE_HZ: f64 = 60.0;
 /// Length of the pieces that curves are cut into, seconds.
@@ -32,8 +33,18 @@ pub(crate) enum Side {
 
 /// The moments within a curve from one moment to another at which its pieces end.
 pub(crate) fn pieces(from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
-    let pieces = ((to_s - from_s) / PIECE_S).ceil().clamp(1.0, MOST_STATES as f64) as usize;
-    (1..pieces).map(move |piece| from_s + (to_s - from_s) * piece as f64 / pieces as f64)
+    cuts(from_s, to_s, (to_s - from_s) / PIECE_S, MOST_STATES as f64)
+}
+
+/// The moments, in any unit, that cut the time from one moment to another into `pieces` of equal length, rounded up, and at most `most`.
+pub(crate) fn cuts(from: f64, to: f64, pieces: f64, most: f64) -> impl Iterator<Item = f64> {
+    let pieces = pieces.ceil().clamp(1.0, most) as usize;
+    (1..pieces).map(move |piece| from + (to - from) * piece as f64 / pieces as f64)
+}
+
+/// Greatest distance by which straight pieces depart from the file's motion, in the units of a space that this map places in the file.
+pub(crate) fn length_in(file_from_space: &DAffine3, meters_per_unit: f64) -> f64 {
+    LENGTH_M / (meters_per_unit * file_from_space.matrix3.determinant().abs().cbrt())
 }
 
 /// Greatest turn between two moments of which the shortest way is taken, degrees.
@@ -43,8 +54,7 @@ const MOST_TURNS: f64 = 10_000.0;
 
 /// The moments, in any unit, within an even turn by an angle, degrees, that cut it into pieces whose shortest way is theirs.
 pub(crate) fn turns(from: f64, to: f64, angle_deg: f64) -> impl Iterator<Item = f64> {
-    let pieces = (angle_deg / TURN_DEG).ceil().clamp(1.0, MOST_TURNS) as usize;
-    (1..pieces).map(move |piece| from + (to - from) * piece as f64 / pieces as f64)
+    cuts(from, to, angle_deg / TURN_DEG, MOST_TURNS)
 }
 
 /// The states of a node whose pose is known at all times, at moments in any order. `None` without any moment.

@@ -2,6 +2,8 @@
 
 use super::Side;
 use crate::assembly::TimedShapes;
+use enfilade_geometry::Mesh;
+use enfilade_math::DAffine3;
 use enfilade_scene::Shape;
 use std::sync::Arc;
 
@@ -87,6 +89,14 @@ pub(crate) fn shapes<E>(
         return Ok(Shapes::Refused(format!("its vertices at {} s are not finite", times_s[at])));
     }
     Ok(if all.iter().all(|shape| shape == first) { Shapes::Constant } else { Shapes::Timed((times_s, all)) })
+}
+
+/// Places the vertices of a mesh. True if that mirrors it.
+pub(crate) fn place(mesh: &mut Mesh, map: &DAffine3) -> bool {
+    let normals = map.matrix3.inverse().transpose();
+    mesh.positions.iter_mut().for_each(|p| *p = map.transform_point3(p.as_dvec3()).as_vec3());
+    mesh.normals.iter_mut().for_each(|n| *n = (normals * n.as_dvec3()).normalize_or_zero().as_vec3());
+    map.matrix3.determinant() < 0.0
 }
 
 fn is_near(a: &Shape, b: &Shape, length: f64) -> bool {

@@ -9,7 +9,7 @@ pub(super) struct Source<'s> {
     pub file: &'s Path,
     pub bytes: &'s [u8],
     pub text: &'s str,
-    /// Its JSON, where it is any.
+    /// The JSON, where it is any.
     pub json: Option<Value>,
 }
 

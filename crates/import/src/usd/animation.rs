@@ -11,7 +11,7 @@ use super::stage::Prim;
 use super::value::Value;
 use super::xform::Xform;
 use crate::assembly::Assembly;
-use crate::motion::{Changing, LENGTH_M, Shapes, shapes};
+use crate::motion::{Changing, Shapes, length_in, shapes};
 use enfilade_math::DAffine3;
 use enfilade_scene::{BodyId, PartId};
 use std::convert::Infallible;
@@ -71,7 +71,7 @@ impl Animations {
         a: &mut Assembly,
     ) {
         let (codes, rate) = (deform.codes(), self.codes_per_second);
-        let length = LENGTH_M / (a.meters_per_unit() * file_from_mesh.matrix3.determinant().abs().cbrt());
+        let length = length_in(file_from_mesh, a.meters_per_unit());
         let mesh = a.mesh_at(mesh).clone();
         let shape = |time_s: f64, _| Ok::<_, Infallible>(deform.shape(Some(time_s * rate), corners, &mesh));
         match shapes(codes.iter().map(|code| code / rate).collect(), false, length, shape) {

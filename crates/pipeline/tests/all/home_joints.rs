@@ -1,5 +1,6 @@
 //! Homes in which things are open: free space, tables, layout, and motion by joints.
 
+use crate::common::assert_made;
 use enfilade_dataset::Dataset;
 use enfilade_explore::{CarveConfig, FreeSpace, carve};
 use enfilade_geometry::{Bvh, Voxel};
@@ -63,9 +64,7 @@ fn joints_of_homes_open_in_the_course_of_the_frames() {
     let folder = tempfile::tempdir().unwrap();
     let config = write(folder.path(), "toilet_*/lid");
     let out = folder.path().join("out");
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| f.message.clone())).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
     let dataset = Dataset::open(&out).unwrap();
     let filmed = dataset.read_filmed_bodies("bath", "cam_00").unwrap().expect("something moves");
     let moving: Vec<&str> = filmed.bodies.iter().filter(|body| body.moves).map(|body| body.name.as_str()).collect();

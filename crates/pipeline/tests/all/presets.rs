@@ -1,6 +1,6 @@
 //! Results of a preset: its rules in the plan, its camera, and depth as Hypersim's loaders compute it.
 
-use crate::common::write_home;
+use crate::common::{assert_made, write_home};
 use enfilade_dataset::{Dataset, loader_depth};
 use enfilade_explore::{PlanReport, Preset};
 use enfilade_frame::Layer;
@@ -27,9 +27,7 @@ fn every_presets_trajectories_keep_its_laws_and_begin_with_the_given_camera() {
     let folder = tempfile::tempdir().unwrap();
     let config = config(folder.path(), "size = [64, 48]\n", 12);
     let out = folder.path().join("out");
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| (&s.name, &f.message))).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
     let dataset = Dataset::open(&out).unwrap();
     for preset in [Preset::Default, Preset::Paper, Preset::Hypersim] {
         let scene = preset.name();

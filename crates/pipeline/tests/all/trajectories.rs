@@ -1,6 +1,6 @@
 //! Datasets of every mode of trajectory: made, verified, and not made again.
 
-use crate::common::write_home;
+use crate::common::{assert_made, write_home};
 use enfilade_dataset::Dataset;
 use enfilade_geometry::OccupancyTree;
 use enfilade_math::DVec3;
@@ -41,9 +41,7 @@ fn datasets_of_every_mode_verify_and_are_made_once() {
     let folder = tempfile::tempdir().unwrap();
     let config = config(folder.path());
     let out = folder.path().join("out");
-    let summary = run(&config, &out, None, &Silent).unwrap();
-    let failures: Vec<_> = summary.scenes.iter().filter_map(|s| s.failure.as_ref().map(|f| (&s.name, &f.message))).collect();
-    assert!(summary.ok(), "{failures:?}");
+    assert_made(&config, &out);
     assert!(run(&config, &out, None, &Silent).unwrap().nothing_done());
 
     let dataset = Dataset::open(&out).unwrap();

@@ -102,7 +102,7 @@ impl Lockers {
 struct Fittings([Vec<Mesh>; 3]);
 
 impl Fittings {
-    /// Those of a door about x = `at` whose face is 4 mm behind `y`, over a height of `step` from `z`.
+    /// Fittings of a door about x = `at` whose face is 4 mm behind `y`, over a height of `step` from `z`.
     fn of(at: f32, y: f32, z: f32, step: f32) -> Self {
         let slot = |k: usize, from: f32| {
             board([at - 0.07, y - 0.0046, from + 0.022 * k as f32], [at + 0.07, y - 0.0032, from + 0.022 * k as f32 + 0.007], 0.0004)
@@ -113,7 +113,7 @@ impl Fittings {
         Self([slots, vec![lock], vec![plate]])
     }
 
-    /// Those of several doors.
+    /// Fittings of several doors together.
     fn joined(all: Vec<Self>) -> Self {
         let mut joined = [Vec::new(), Vec::new(), Vec::new()];
         for own in all {

@@ -30,7 +30,7 @@ pub struct BackSpan {
     pub width: f32,
     /// Places to sit.
     pub seats: usize,
-    /// Its rear side.
+    /// The rear side.
     pub rear: f32,
     /// Lower end of the frame.
     pub low: f32,
