@@ -6,7 +6,7 @@ use crate::materials::{Finish, Materials, Surfacing};
 use crate::models::{Body, Model};
 use crate::palette::Palette;
 use enfilade_geometry::Mesh;
-use enfilade_math::{DAffine3, DVec3, Rgb, Vec2, Vec3};
+use enfilade_math::{DAffine3, DVec3, Rgb, Rng, Vec2, Vec3, hash_text};
 use enfilade_scene::{BodyMotion, Image, Labels, Material, ObjectId, Part, PartLabel, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -84,6 +84,10 @@ pub struct Builder {
     models: BTreeMap<String, Arc<Model>>,
     /// The joints so far, one for each body of the scene; `None` where nothing has joints.
     joints: Option<Vec<Jointed>>,
+    /// Share of the objects that have joints, and the random numbers that choose them by their names.
+    some: (f32, Rng),
+    /// Whether the last object has joints.
+    jointed: bool,
 }
 
 /// Indices of a model's meshes and materials in the scene.
@@ -111,6 +115,11 @@ fn unit_square(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
+/// Whether an object is among the `share` of all that `rng` chooses by their names.
+pub fn is_among(object: &str, share: f32, rng: &Rng) -> bool {
+    rng.fork(hash_text(object)).next_f32() < share
+}
+
 /// The pose at (x, y, z), turned by `yaw` radians about the vertical.
 pub fn pose(x: f64, y: f64, z: f64, yaw: f64) -> DAffine3 {
     DAffine3::from_translation(DVec3::new(x, y, z)) * DAffine3::from_rotation_z(yaw)
@@ -130,23 +139,31 @@ impl Builder {
             loaned: BTreeMap::new(),
             models: BTreeMap::new(),
             joints: None,
+            some: (0.0, Rng::new(0)),
+            jointed: false,
         }
     }
 
     /// A builder of things that can be opened: they have joints, and an inside.
     #[must_use]
     pub fn with_joints(self) -> Self {
-        Self { joints: Some(Vec::new()), ..self }
+        self.with_some_joints(1.0, Rng::new(0))
     }
 
-    /// True where things have joints, and need what is to be seen when they are open.
+    /// A builder of things of which this share can be opened: whether one can depends on `rng` and its name.
+    #[must_use]
+    pub fn with_some_joints(self, share: f32, rng: Rng) -> Self {
+        Self { joints: Some(Vec::new()), some: (share, rng), jointed: share >= 1.0, ..self }
+    }
+
+    /// True where the last object has joints, and needs what is to be seen when it is open.
     pub fn has_joints(&self) -> bool {
-        self.joints.is_some()
+        self.jointed
     }
 
     /// Lets `parts` of `object`, in ascending order, move by a joint; nothing where things have none. `name` is that of what moves.
     pub fn joint(&mut self, object: &Object, name: &str, joint: &Joint, parts: impl IntoIterator<Item = usize>) {
-        let Some(joints) = &mut self.joints else { return };
+        let Some(joints) = self.joints.as_mut().filter(|_| self.jointed) else { return };
         let body = format!("{}/{name}", object.name);
         joints.push(Jointed { body: body.clone(), kind: joint.kind });
         let motion = BodyMotion { times_s: vec![0.0], states: joint.at_rest(&object.pose) };
@@ -179,6 +196,8 @@ impl Builder {
         };
         let name = format!("{family}_{count}");
         self.fronts.insert(name.clone(), pose.transform_vector3(DVec3::Y));
+        let (share, rng) = &self.some;
+        self.jointed = self.joints.is_some() && (*share >= 1.0 || is_among(&name, *share, rng));
         let id = self.scene.objects.len() as ObjectId;
         self.scene.objects.push(enfilade_scene::Object { name: name.clone(), parent: None });
         Object { name, id, label: PartLabel { semantic, instance }, pose }

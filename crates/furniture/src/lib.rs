@@ -34,7 +34,7 @@ pub mod shape;
 mod surface;
 pub mod touch;
 
-pub use builder::{Builder, Class, Object, pose};
+pub use builder::{Builder, Class, Object, is_among, pose};
 pub use joint::{Axis, Joint, JointKind, Jointed};
 pub use lamplight::{Exposure, Glow, LampLight};
 pub use materials::{CARPET_TILE_M, CEILING_TILE_M, Finish, Materials, Surfacing};

@@ -40,7 +40,7 @@ impl Body {
     /// The triangles of the body whose boxes meet `window`.
     pub fn within(&self, window: &Bounds3) -> impl Iterator<Item = &Triangle> {
         let parts = self.parts.iter().filter(|(bounds, _)| overlap(bounds, window, 0.0));
-        parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&Bounds3::from_points(**t), window, 0.0))
+        parts.flat_map(|(_, triangles)| triangles).filter(|t| overlap(&around(t), window, 0.0))
     }
 
     /// The triangles of the body, part by part.
@@ -82,6 +82,11 @@ impl Body {
     }
 }
 
+/// The box around a triangle.
+pub fn around([a, b, c]: &Triangle) -> Bounds3 {
+    Bounds3 { min: a.min(*b).min(*c), max: a.max(*b).max(*c) }
+}
+
 /// True when the boxes come nearer than `margin`.
 pub fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
     a.min.cmple(b.max + margin).all() && b.min.cmple(a.max + margin).all()
@@ -90,21 +95,21 @@ pub fn overlap(a: &Bounds3, b: &Bounds3, margin: f32) -> bool {
 /// True when a triangle of `a`, moved by `offset`, cuts one of `b`. Both are sorted by x, so that pairs far apart are skipped.
 fn cut(a: &[Triangle], offset: Vec3, b: &[Triangle], bounds_a: &Bounds3, bounds_b: &Bounds3) -> bool {
     let shared = Bounds3 { min: bounds_a.min.max(bounds_b.min), max: bounds_a.max.min(bounds_b.max) };
-    let within = |t: &Triangle| overlap(&Bounds3::from_points(*t), &shared, 1e-5);
+    let within = |t: &Triangle| overlap(&around(t), &shared, 1e-5);
     let mut a: Vec<Triangle> = a.iter().map(|t| t.map(|p| p + offset)).filter(within).collect();
     let mut b: Vec<Triangle> = b.iter().copied().filter(within).collect();
     let left = |t: &Triangle| t[0].x.min(t[1].x).min(t[2].x);
     a.sort_by(|s, t| left(s).total_cmp(&left(t)));
     b.sort_by(|s, t| left(s).total_cmp(&left(t)));
-    let widest = b.iter().map(|t| Bounds3::from_points(*t).extent().x).fold(0.0, f32::max);
+    let widest = b.iter().map(|t| around(t).extent().x).fold(0.0, f32::max);
     let mut from = 0;
     for t in &a {
-        let box_t = Bounds3::from_points(*t);
+        let box_t = around(t);
         while from < b.len() && left(&b[from]) < box_t.min.x - widest {
             from += 1;
         }
         for s in b[from..].iter().take_while(|s| left(s) <= box_t.max.x) {
-            if overlap(&box_t, &Bounds3::from_points(*s), 0.0) && triangles_cut(t, s) {
+            if overlap(&box_t, &around(s), 0.0) && triangles_cut(t, s) {
                 return true;
             }
         }

@@ -114,10 +114,8 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     let light = light(&plan, config, &config.stream(config.light, 4));
     let decor = DecorConfig { seed: config.materials.unwrap_or(config.seed), realism: config.realism };
     // Shell and furniture of every room.
-    let mut builder = Builder::new(Materials::new(decor.palette(), light.lamp_light(), decor.pictures()));
-    if config.states.is_some() {
-        builder = builder.with_joints();
-    }
+    let builder = Builder::new(Materials::new(decor.palette(), light.lamp_light(), decor.pictures()).worn(config.lived_in));
+    let mut builder = if config.states.is_some() { builder.with_joints() } else { life::openable(builder, config) };
     let rooms = rooms::furnish(&mut builder, &plan, &decor, config, library);
     let life = life::Life::bring(&mut builder, &plan, &decor, config, rooms);
     let (models, fronts) = (builder.models().clone(), builder.fronts().clone());
@@ -130,6 +128,10 @@ fn furnished(config: &HomeConfig, library: &Library, plan: FloorPlan) -> Home {
     // Things that float or run into others are moved or removed.
     settle::settle(&mut home);
     life.live(&mut home, &waiting);
+    if config.states.is_none() {
+        home.joints.clear();
+        home.scene.bodies.clear();
+    }
     settle::tidy(&mut home);
     if let Some(states) = &config.states {
         open::open(&mut home, states, &config.stream(None, 8));

@@ -11,6 +11,7 @@ use crate::states::States;
 use crate::{Home, HomeJoint};
 use enfilade_furniture::meet::Body;
 use enfilade_math::Rng;
+use enfilade_scene::{BodyId, PartId};
 
 /// Shares of the way back that are tried where something that was opened before is in the way.
 const BACK: usize = 20;
@@ -38,7 +39,7 @@ pub(crate) fn open(home: &mut Home, states: &States, rng: &Rng) {
             let got = (state - closed) / (open - closed).max(LEAST);
             notes.push(format!("{body} is open by {got:.2} of its range instead of {share:.2}: {thing} is in the way"));
         }
-        set(home, number, moving, state);
+        set(home, number, moving.body, &moving.parts, state);
         for name in [moving.object()].into_iter().chain(moving.carries.iter().map(String::as_str)) {
             let changed = bodies.iter_mut().find(|body| body.name == name);
             changed.into_iter().for_each(|body| *body = body_named(&home.scene, name));
@@ -65,12 +66,12 @@ fn nearest(moving: &Moving, asked: f64, bodies: &[Body]) -> (f64, Option<String>
     (back.into_iter().find(|&state| moving.mover.hit(state, &others).is_none()).unwrap_or(0.0), Some(first))
 }
 
-/// Makes a state the rest of what moves.
-fn set(home: &mut Home, number: usize, moving: &Moving, state: f64) {
-    let body = &mut home.scene.bodies[moving.body as usize];
+/// Makes a state of the joint of this number the rest of what moves by it.
+pub(crate) fn set(home: &mut Home, number: usize, body: BodyId, parts: &[PartId], state: f64) {
+    let body = &mut home.scene.bodies[body as usize];
     let map = to_state(&body.motion.states, state);
     body.limits = body.limits.map(|limits| limits.map(|limit| limit - state));
-    for &part in &moving.parts {
+    for &part in parts {
         let placed = &mut home.scene.parts[part as usize].world_from_mesh;
         *placed = map * *placed;
     }

@@ -19,7 +19,7 @@ mod wood;
 pub use books::{BOOK_COLUMNS, BOOK_ROWS, book_spines};
 pub use fabric::{Pattern, Weave, cotton, felt, knit, loops, pile, weave};
 pub use hide::{cork, leather, wicker};
-pub use mark::{Mark, mark};
+pub use mark::{Mark, mark, worn, worn_gloss};
 pub use painting::{PaintingStyle, painting};
 pub use paper::{Display, cardboard, display, leaf};
 pub use plaster::{PaperPattern, rolled, trowelled, wallpaper};

@@ -1,8 +1,8 @@
 //! Marks of use: what hands, shoes, cups and dust leave on surfaces, as a colour with the share of the surface that it covers.
 
 use super::encode;
-use super::noise::{cells, fbm, noise, smoothstep};
-use super::of_pixels;
+use super::noise::{Field, cells, fbm, noise, smoothstep};
+use super::{Skin, of_pixels};
 use enfilade_math::{Rgb, Vec2};
 use enfilade_scene::{Image, Pixels};
 
@@ -88,20 +88,62 @@ impl Mark {
     }
 }
 
-/// A picture of 256 × 256 pixels over the unit square: `color`, and how much of the surface it covers as opacity.
+/// A picture over the unit square, of 256 × 256 pixels where the mark has fine lines, else of 128 × 128: `color`, and how much of the surface
+/// it covers as opacity.
 pub fn mark(name: &str, kind: Mark, color: Rgb, seed: u32) -> Image {
-    const SIDE: u32 = 256;
+    let side = if matches!(kind, Mark::Fingers | Mark::Scratches | Mark::Rings) { 256 } else { 128 };
     let color = [color.r, color.g, color.b].map(encode);
-    let texels = of_pixels([SIDE; 2], |uv| {
+    let texels = of_pixels([side; 2], |uv| {
         let [r, g, b] = color;
         [r, g, b, (kind.cover(uv, seed) * 255.0 + 0.5) as u8]
     });
-    Image { name: name.into(), width: SIDE, height: SIDE, pixels: Pixels::Rgba8 { srgb: true, texels } }
+    Image { name: name.into(), width: side, height: side, pixels: Pixels::Rgba8 { srgb: true, texels } }
+}
+
+/// A varnished surface that has been used: where hands and feet go it is rougher by up to `wear` times its roughness, in patches and fine
+/// scratches. Colours and heights stay.
+#[must_use]
+pub fn worn(mut skin: Skin, wear: f32, seed: u32) -> Skin {
+    const SIDE: usize = 128;
+    let Pixels::Rgba8 { texels, .. } = &mut skin.color.pixels else { return skin };
+    let patches = Field::new(SIDE, |uv| smoothstep(-0.12, 0.42, fbm(uv, [3, 3], 3, seed ^ 23)));
+    let scratches = Field::new(2 * SIDE, |uv| smoothstep(0.5, 0.9, noise(uv * Vec2::new(9.0, 48.0), [9, 48], seed ^ 29)));
+    let (width, height) = (skin.color.width as f32, skin.color.height as f32);
+    for (k, texel) in texels.iter_mut().enumerate() {
+        let (x, y) = (k as u32 % skin.color.width, k as u32 / skin.color.width);
+        let uv = Vec2::new((x as f32 + 0.5) / width, 1.0 - (y as f32 + 0.5) / height);
+        let more = 1.0 + wear * (0.75 * patches.at(uv) + 0.25 * scratches.at(uv));
+        texel[3] = (f32::from(texel[3]) * more).round().min(255.0) as u8;
+    }
+    skin
+}
+
+/// The roughness of lacquer that has been used, as a share of twice that of new lacquer, over the unit square; see [`worn`].
+pub fn worn_gloss(name: &str, wear: f32, seed: u32) -> Image {
+    const SIDE: u32 = 256;
+    let even = Image {
+        name: name.into(),
+        width: SIDE,
+        height: SIDE,
+        pixels: Pixels::Rgba8 { srgb: true, texels: vec![[255, 255, 255, 128]; (SIDE * SIDE) as usize] },
+    };
+    worn(Skin { height: even.clone(), color: even }, wear, seed).color
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn wear_makes_varnish_rougher_here_and_there_and_nothing_else() {
+        let Pixels::Rgba8 { texels, .. } = worn_gloss("gloss", 0.8, 5).pixels else { panic!("bytes") };
+        let rough: Vec<u8> = texels.iter().map(|texel| texel[3]).collect();
+        let (least, most) = (rough.iter().min().unwrap(), rough.iter().max().unwrap());
+        assert!((128..132).contains(least) && (190..=231).contains(most), "{least} {most}");
+        assert!(texels.iter().all(|texel| texel[..3] == [255; 3]));
+        let Pixels::Rgba8 { texels, .. } = worn_gloss("gloss", 0.0, 5).pixels else { panic!("bytes") };
+        assert!(texels.iter().all(|texel| texel[3] == 128));
+    }
 
     #[test]
     fn marks_cover_some_of_their_square_and_end_before_its_border() {

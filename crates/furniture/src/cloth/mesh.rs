@@ -12,9 +12,10 @@ const FINE: usize = 2;
 const HEM: f32 = 0.15;
 
 /// A sheet with more points.
-struct Fine {
+pub(super) struct Fine {
     count: [usize; 2],
-    points: Vec<Option<Vec3>>,
+    /// `None` where no cloth is.
+    pub(super) points: Vec<Option<Vec3>>,
 }
 
 impl Fine {
@@ -24,7 +25,7 @@ impl Fine {
     }
 
     /// Points between those of the sheet, on curves through them (Catmull & Rom 1974), where all around is cloth.
-    fn of(sheet: &Sheet) -> Self {
+    pub(super) fn of(sheet: &Sheet) -> Self {
         let count = sheet.count.map(|n| (n - 1) * FINE + 1);
         let at = |i: isize, j: isize| {
             let (i, j) = (i.clamp(0, sheet.count[0] as isize - 1) as usize, j.clamp(0, sheet.count[1] as isize - 1) as usize);

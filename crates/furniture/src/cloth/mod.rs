@@ -4,6 +4,7 @@
 //! falls on a [`Solid`], the distances to the surfaces of things, keeps its own thickness from them and from itself, and becomes a mesh
 //! with two sides.
 
+mod apart;
 mod fall;
 mod mesh;
 mod sheet;

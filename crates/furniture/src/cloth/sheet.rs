@@ -81,7 +81,8 @@ pub struct Sheet {
 impl Sheet {
     /// The sheet, its middle at `at`, turned by `yaw`: spread out where `crumpled` is 0, pushed together to a heap of folds where it is 1.
     pub fn new(textile: Textile, at: Vec3, yaw: f32, crumpled: f32, rng: &mut Rng) -> Self {
-        let count = (textile.size / textile.pitch).ceil().as_uvec2().to_array().map(|n| n as usize + 1);
+        // An even number of cells, so that every second point is a sheet too.
+        let count = (0.5 * textile.size / textile.pitch).ceil().as_uvec2().to_array().map(|n| 2 * n as usize + 1);
         let turn = Vec2::from_angle(yaw);
         let squeeze = Vec2::new(1.0 - rng.range(0.2, 0.5) * crumpled, 1.0 - rng.range(0.2, 0.5) * crumpled);
         // Waves that take up the length by which the cloth is pushed together: ∫ √(s² + a²k²cos²) = 1 for a²k² = 2 (1 − s²), nearly.

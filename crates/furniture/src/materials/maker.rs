@@ -4,7 +4,7 @@ use crate::lamplight::Exposure;
 use crate::palette::Palette;
 use enfilade_math::{Rgb, Rng, Vec2, hash_text};
 use enfilade_scene::{Bsdf, ColorParam, Image, Material, NormalMap, ScalarParam, Scene};
-use enfilade_textures::{Paint, Skin};
+use enfilade_textures::{Paint, Skin, worn, worn_gloss};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
@@ -13,6 +13,8 @@ use std::fmt::Debug;
 pub(super) struct Stock {
     pub palette: Palette,
     pub exposure: Exposure,
+    /// How much rougher varnish is where it has been used most.
+    pub wear: f32,
     rng: Rng,
     /// By name and by what they depend on.
     pictures: BTreeMap<(&'static str, String), Paint>,
@@ -21,7 +23,7 @@ pub(super) struct Stock {
 impl Stock {
     /// Without pictures yet; `rng` decides them.
     pub fn new(palette: Palette, exposure: Exposure, rng: Rng) -> Self {
-        Self { palette, exposure, rng, pictures: BTreeMap::new() }
+        Self { palette, exposure, wear: 0.0, rng, pictures: BTreeMap::new() }
     }
 }
 
@@ -69,6 +71,23 @@ impl Maker<'_> {
         });
         self.scene.images.extend(relief.map(Into::into));
         Layers { color, relief: Paint { image: color.image + 1, ..color } }
+    }
+}
+
+impl Maker<'_> {
+    /// Pictures of a varnished surface, worn as the home is; otherwise as [`Maker::skin`].
+    pub fn varnished(&mut self, name: &'static str, variant: &impl Debug, covers: [f32; 2], make: impl FnOnce(u32) -> Skin) -> Layers {
+        let wear = self.stock.wear;
+        self.skin(name, variant, covers, |seed| if wear > 0.0 { worn(make(seed), wear, seed) } else { make(seed) })
+    }
+
+    /// The roughness of lacquer that is `alpha` where it is new.
+    pub fn gloss(&mut self, alpha: f32) -> ScalarParam {
+        let wear = self.stock.wear;
+        if wear == 0.0 {
+            return alpha.into();
+        }
+        self.picture("worn gloss", &(), [0.9, 0.9], |seed| worn_gloss("worn gloss", wear, seed)).alpha(255.0 / 128.0 * alpha)
     }
 }
 

@@ -43,6 +43,13 @@ impl Materials {
         Self { stock: Stock::new(palette, light.exposure, rng), room: 0, light, materials: BTreeMap::new() }
     }
 
+    /// Materials of a home in which varnish and lacquer are rougher by up to `wear` times their roughness where they have been used.
+    #[must_use]
+    pub fn worn(mut self, wear: f32) -> Self {
+        self.stock.wear = wear;
+        self
+    }
+
     /// From now on finishes have the colours of `palette`.
     pub fn enter_room(&mut self, palette: Palette) {
         (self.stock.palette, self.room) = (palette, self.room + 1);

@@ -65,7 +65,7 @@ impl Maker<'_> {
         let own = self.seed("vinyl tiles", &(palette.rug, palette.wall)) as usize;
         let [ground, chips] = VINYLS[own % VINYLS.len()];
         let second = if (own / 7).is_multiple_of(4) { VINYLS[(own / 28) % VINYLS.len()][0] } else { ground };
-        let layers = self.skin("vinyl tiles", &(ground, second), [1.22, 1.22], |seed| {
+        let layers = self.varnished("vinyl tiles", &(ground, second), [1.22, 1.22], |seed| {
             texture::skin("vinyl tiles", [1024, 1024], |uv| chipped(uv, [ground, second], chips, seed))
         });
         layers.relieved(coated("vinyl tiles", layers.tinted(Rgb::WHITE), layers.alpha(1.0)), 0.000_3)

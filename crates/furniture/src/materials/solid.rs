@@ -28,7 +28,7 @@ impl Maker<'_> {
         } else {
             wood
         };
-        let layers = self.skin("veneer", &tone, [1.6, 0.8], |seed| texture::veneer("veneer", &tone, seed));
+        let layers = self.varnished("veneer", &tone, [1.6, 0.8], |seed| texture::veneer("veneer", &tone, seed));
         layers.relieved(coated(name, layers.tinted(Rgb::WHITE), layers.alpha(0.95)), 0.000_12)
     }
 
@@ -64,7 +64,8 @@ impl Maker<'_> {
     /// Sprayed lacquer with a faint orange peel.
     pub(super) fn lacquer(&mut self, name: &str, color: Rgb, alpha: f32) -> Material {
         let layers = self.skin("rolled paint", &(), [0.14, 0.14], |seed| texture::rolled("rolled paint", seed));
-        layers.relieved(coated(name, color, alpha), 0.000_012)
+        let gloss = self.gloss(alpha);
+        layers.relieved(coated(name, color, gloss), 0.000_012)
     }
 
     /// A colour for lacquered furniture and toys.
@@ -86,7 +87,7 @@ impl Maker<'_> {
     }
 
     pub(super) fn leather(&mut self, name: &'static str, color: Rgb) -> Material {
-        let layers = self.skin("leather", &(), [0.2, 0.2], |seed| texture::leather("leather", seed));
+        let layers = self.varnished("leather", &(), [0.2, 0.2], |seed| texture::leather("leather", seed));
         layers.relieved(coated(name, layers.tinted(color), layers.alpha(1.0)), 0.000_4)
     }
 

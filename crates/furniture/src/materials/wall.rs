@@ -36,14 +36,15 @@ impl Maker<'_> {
 
     pub(super) fn plank_floor(&mut self) -> Material {
         let tone = self.palette().floor;
-        let layers = self.skin("floor planks", &tone, [2.0, 1.0], |seed| texture::floor_planks("floor planks", &tone, seed));
+        let layers = self.varnished("floor planks", &tone, [2.0, 1.0], |seed| texture::floor_planks("floor planks", &tone, seed));
         layers.relieved(coated("oiled floor", layers.tinted(Rgb::WHITE), layers.alpha(0.95)), 0.000_25)
     }
 
     pub(super) fn parquet_floor(&mut self) -> Material {
         let tone = self.palette().floor;
         let side = texture::HERRINGBONE_M;
-        let layers = self.skin("herringbone parquet", &tone, [side, side], |seed| texture::herringbone("herringbone parquet", &tone, seed));
+        let layers =
+            self.varnished("herringbone parquet", &tone, [side, side], |seed| texture::herringbone("herringbone parquet", &tone, seed));
         layers.relieved(coated("herringbone parquet", layers.tinted(Rgb::WHITE), layers.alpha(0.75)), 0.000_5)
     }
 
@@ -60,7 +61,7 @@ impl Maker<'_> {
 
     pub(super) fn concrete(&mut self) -> Material {
         let tone = Rgb::new(0.36, 0.35, 0.335);
-        let layers = self.skin("concrete", &(), [2.4, 2.4], |seed| texture::concrete("concrete", tone, true, seed));
+        let layers = self.varnished("concrete", &(), [2.4, 2.4], |seed| texture::concrete("concrete", tone, true, seed));
         layers.relieved(coated("sealed microcement", layers.tinted(Rgb::WHITE), layers.alpha(1.0)), 0.000_4)
     }
 }

@@ -4,7 +4,7 @@ use super::cloth::{bounds_of, hang, joined, settle};
 use super::stage::{Bundle, Stage};
 use super::table::interpolated;
 use crate::check::contact::runs_into;
-use enfilade_furniture::cloth::{Sheet, Textile};
+use enfilade_furniture::cloth::{Sheet, Solid, Textile};
 use enfilade_furniture::meet::{Body, overlap};
 use enfilade_furniture::{family_of, object_of};
 use enfilade_geometry::Mesh;
@@ -55,9 +55,10 @@ fn unmake(stage: &mut Stage, bed: &str, rng: &mut Rng) {
     let covers = [sides[0].0.name.clone(), sides[1].0.name.clone()];
     let throws = first_parts(stage, &on_bed);
     stage.remove(|part| covers.iter().any(|cover| cover == part) || on_bed.iter().any(|object| object_of(part) == object));
+    let mut ground = None;
     let thrown = (0..TRIES).find_map(|k| {
         let width = lying.extent().x + BEYOND[0] - BEYOND[1] * k as f32;
-        fallen(stage, bed, thrown(width, pose, lying.max.z, rng), rng)
+        fallen(stage, bed, thrown(width, pose, lying.max.z, rng), &mut ground, rng)
     });
     for (k, (part, label)) in sides.into_iter().enumerate() {
         let part = match &thrown {
@@ -91,7 +92,7 @@ fn throw_on(stage: &mut Stage, pose: DAffine3, top: f32, part: Part, label: Part
     let textile = Textile::blanket(rng);
     let at = pose.transform_point3(DVec3::new(f64::from(rng.range(-0.3, 0.3)), f64::from(rng.range(0.0, 0.7)), f64::from(top + FALL)));
     let mut sheet = Sheet::new(textile, at.as_vec3(), rng.range(0.0, TAU), rng.range(0.4, 1.0), rng);
-    settle(stage, &mut sheet);
+    settle(stage, &mut sheet, &mut None);
     let Some(bounds) = bounds_of(&sheet) else { return };
     let [upper, lower] = sheet.sides(bounds.center());
     let bundle = Bundle { parts: vec![Part { world_from_mesh: DAffine3::IDENTITY, ..part }], labels: vec![label] };
@@ -99,8 +100,8 @@ fn throw_on(stage: &mut Stage, pose: DAffine3, top: f32, part: Part, label: Part
 }
 
 /// The sides of a cover that has fallen, around a point, if it runs into nothing but the bed.
-fn fallen(stage: &Stage, bed: &str, mut sheet: Sheet, rng: &mut Rng) -> Option<(Vec3, [Mesh; 2])> {
-    settle(stage, &mut sheet);
+fn fallen(stage: &Stage, bed: &str, mut sheet: Sheet, ground: &mut Option<Solid>, rng: &mut Rng) -> Option<(Vec3, [Mesh; 2])> {
+    settle(stage, &mut sheet, ground);
     let origin = bounds_of(&sheet)?.center();
     let meshes = sheet.quilted(origin, rng);
     let mut body = Body::new(bed);

@@ -21,6 +21,8 @@ const AROUND: f32 = 0.12;
 const ABOVE: f32 = 0.03;
 /// Depth below that thing that is looked at, metres.
 const DEEP: f32 = 1.1;
+/// What is looked at beyond that, for further falls in the same place, metres.
+const SPARE: f32 = 0.25;
 /// The highest edge of a piece: all that is at most this much lower, metres.
 const EDGE: f32 = 0.05;
 /// Cloth lower than this lies on the floor, metres.
@@ -32,7 +34,7 @@ pub fn throw(stage: &mut Stage, floors: &mut [Floor], wish: &Wish, bundle: Bundl
     let textile = sort.textile(&mut rng);
     for _ in 0..TRIES {
         let Some(mut sheet) = held_over(stage, &floors[wish.room], wish, textile, &mut rng) else { continue };
-        settle(stage, &mut sheet);
+        settle(stage, &mut sheet, &mut None);
         let Some(bounds) = bounds_of(&sheet) else { return };
         let floor = &mut floors[wish.room];
         let place = Footprint { center: bounds.center().truncate(), half: 0.5 * bounds.extent().truncate(), yaw: 0.0 };
@@ -63,16 +65,22 @@ pub fn joined(mut upper: Mesh, lower: Mesh) -> Mesh {
     upper
 }
 
-/// Lets a sheet fall on all that is around and below it.
-pub fn settle(stage: &Stage, sheet: &mut Sheet) {
+/// Lets a sheet fall on all that is around and below it: on what is `known` of that from an earlier fall, if it is enough.
+pub fn settle(stage: &Stage, sheet: &mut Sheet, known: &mut Option<Solid>) {
     let Some(around) = bounds_of(sheet) else { return };
     let reach = 0.25 * sheet.textile.size.length() + AROUND;
     let window = Bounds3 {
         min: Vec3::new(around.min.x - reach, around.min.y - reach, (around.min.z - DEEP).max(-0.06)),
         max: around.max + Vec3::new(reach, reach, 0.1),
     };
-    let triangles = stage.triangles(&window);
-    sheet.fall(&Solid::new(&window, triangles.iter()));
+    let solid = match known.take().filter(|solid| solid.covers(&window)) {
+        Some(solid) => solid,
+        None => {
+            let window = Bounds3 { min: window.min - SPARE, max: window.max + SPARE };
+            Solid::new(&window, stage.triangles(&window))
+        }
+    };
+    sheet.fall(known.insert(solid));
 }
 
 /// The box around a sheet, if it has any points.

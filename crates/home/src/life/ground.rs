@@ -2,7 +2,7 @@
 
 use crate::room::Footprint;
 use enfilade_furniture::meet::{Body, Triangle};
-use enfilade_math::{Vec2, Vec3};
+use enfilade_math::{Bounds3, Vec2, Vec3};
 
 /// Edge of a cell, metres.
 const CELL: f32 = 0.02;
@@ -22,6 +22,8 @@ pub struct Ground {
     top: Vec<f32>,
     /// Height of the lowest thing above it.
     clear: Vec<f32>,
+    /// Least and greatest height of the upper side.
+    levels: [f32; 2],
 }
 
 /// A level place.
@@ -39,17 +41,20 @@ impl Ground {
         let count = ((max - min) / CELL).ceil().max(Vec2::ONE);
         let (columns, rows) = (count.x as usize, count.y as usize);
         let cells = if columns * rows > MOST { 0 } else { columns * rows };
-        let mut ground = Self { min, columns, rows, top: vec![f32::NEG_INFINITY; cells], clear: vec![f32::INFINITY; cells] };
+        let (top, clear) = (vec![f32::NEG_INFINITY; cells], vec![f32::INFINITY; cells]);
+        let mut ground = Self { min, columns, rows, top, clear, levels: [f32::INFINITY, f32::NEG_INFINITY] };
         if cells == 0 {
             return ground;
         }
-        for triangle in carriers.iter().flat_map(|body| body.parts()).flatten() {
-            ground.each(triangle, |ground, cell, z| {
+        for body in carriers {
+            ground.each(body, [f32::NEG_INFINITY, limit], |ground, cell, z| {
                 if z <= limit {
                     ground.top[cell] = ground.top[cell].max(z);
                 }
             });
         }
+        let tops = || ground.top.iter().copied().filter(|top| top.is_finite());
+        ground.levels = [tops().fold(f32::INFINITY, f32::min), tops().fold(f32::NEG_INFINITY, f32::max)];
         carriers.iter().for_each(|body| ground.cover(body, SUNK));
         others.for_each(|body| ground.cover(body, -SUNK));
         ground
@@ -57,43 +62,44 @@ impl Ground {
 
     /// Records a body that is above the upper side, by `margin` at least.
     fn cover(&mut self, body: &Body, margin: f32) {
-        for triangle in body.parts().flatten() {
-            self.each(triangle, |ground, cell, z| {
-                let top = ground.top[cell];
-                if z > top + margin && z < top + OVER {
-                    ground.clear[cell] = ground.clear[cell].min(z);
-                }
-            });
-        }
+        let [lowest, highest] = self.levels;
+        self.each(body, [lowest + margin, highest + OVER], |ground, cell, z| {
+            let top = ground.top[cell];
+            if z > top + margin && z < top + OVER {
+                ground.clear[cell] = ground.clear[cell].min(z);
+            }
+        });
     }
 
     /// Records a body that has been put there.
     pub fn put(&mut self, body: &Body) {
-        let max = self.min + CELL * Vec2::new(self.columns as f32, self.rows as f32);
-        let apart = body.bounds.max.truncate().cmplt(self.min).any() || body.bounds.min.truncate().cmpgt(max).any();
-        if !apart && !self.top.is_empty() {
-            self.cover(body, -SUNK);
+        self.cover(body, -SUNK);
+    }
+
+    /// Calls `f` for the cells that triangles of a body between two heights cover, with heights of the triangles there.
+    fn each(&mut self, body: &Body, [low, high]: [f32; 2], f: impl Fn(&mut Self, usize, f32)) {
+        if self.top.is_empty() || low > high {
+            return;
+        }
+        let [min, max] = self.window();
+        let window = Bounds3 { min: min.extend(low), max: max.extend(high) };
+        for triangle in body.within(&window) {
+            self.each_cell(triangle, &f);
         }
     }
 
-    /// Calls `f` for the cells that a triangle covers, with heights of the triangle there.
-    fn each(&mut self, corners: &Triangle, f: impl Fn(&mut Self, usize, f32)) {
-        let max = self.min + CELL * Vec2::new(self.columns as f32, self.rows as f32);
-        let low = corners[0].min(corners[1]).min(corners[2]).truncate();
-        let high = corners[0].max(corners[1]).max(corners[2]).truncate();
-        if high.cmplt(self.min).any() || low.cmpgt(max).any() {
-            return;
-        }
+    /// Calls `f` for the cells that a triangle covers.
+    fn each_cell(&mut self, corners: &Triangle, f: &impl Fn(&mut Self, usize, f32)) {
         let [a, b, c] = *corners;
         let steps = |side: Vec3| (1.6 * side.length() / CELL).ceil().clamp(1.0, 1500.0) as usize;
         let (along_b, along_c) = (steps(b - a), steps(c - a));
         for i in 0..=along_b {
             let u = i as f32 / along_b as f32;
             // Fewer steps where the triangle is narrow.
-            let rows = ((along_c as f32 * (1.0 - u)).ceil() as usize).max(1);
+            let rows = (along_c as f32 * (1.0 - u)).ceil() as usize;
+            let (start, step) = (a + u * (b - a), (1.0 - u) / rows.max(1) as f32 * (c - a));
             for j in 0..=rows {
-                let v = (1.0 - u) * j as f32 / rows as f32;
-                let p = a + u * (b - a) + v * (c - a);
+                let p = start + j as f32 * step;
                 if let Some(cell) = self.cell(p.truncate()) {
                     f(self, cell, p.z);
                 }
@@ -102,8 +108,8 @@ impl Ground {
     }
 
     fn cell(&self, p: Vec2) -> Option<usize> {
-        let q = (p - self.min) / CELL;
-        let inside = q.cmpge(Vec2::ZERO).all() && (q.x as usize) < self.columns && (q.y as usize) < self.rows && !self.top.is_empty();
+        let q = (p - self.min) * (1.0 / CELL);
+        let inside = q.min_element() >= 0.0 && q.x < self.columns as f32 && q.y < self.rows as f32 && !self.top.is_empty();
         inside.then(|| q.y as usize * self.columns + q.x as usize)
     }
 

@@ -2,11 +2,12 @@
 //! [`HomeConfig::lived_in`](crate::HomeConfig::lived_in) says.
 //!
 //! The furnished home settles first, so that life changes nothing of it. Then come, in this order: beds that have been slept in
-//! ([`beds`]), chairs and cushions out of place ([`askew`]), things on tables, seats, floors and walls ([`things`], [`walls`]), cloth that
+//! ([`beds`]), chairs and cushions out of place ([`askew`]), drawers that are not quite closed ([`ajar`]), things on tables, seats, floors and walls ([`things`], [`walls`]), cloth that
 //! falls on what is there ([`cloth`]), all by the [`table`], and at last wear ([`marks`]). Whatever finds no place where it is free,
 //! carried and in nobody's way, is left out. Random numbers have a stream of their own, and each thing its own fork of it: with more life
 //! there are the same things and others besides.
 
+mod ajar;
 mod askew;
 mod beds;
 mod cloth;
@@ -41,6 +42,16 @@ const AREAS: [f32; 2] = [0.2, 4.0];
 /// Probability that a screen that is off is on, at ½ and at 1.
 const SCREENS: [f32; 2] = [0.45, 0.8];
 
+/// A builder of homes in which some things have an inside, since life may open them.
+pub fn openable(b: Builder, config: &HomeConfig) -> Builder {
+    if config.lived_in == 0.0 { b } else { b.with_some_joints(interpolated(config.lived_in, ajar::OPENED), opened(config)) }
+}
+
+/// The random numbers that choose these.
+fn opened(config: &HomeConfig) -> Rng {
+    config.stream(config.furniture, 11)
+}
+
 /// A room that is furnished: its parts, and its floor with what stands there.
 pub struct Furnished {
     /// Parts of the room.
@@ -56,6 +67,8 @@ pub struct Life {
     base: usize,
     floors: Vec<Floor>,
     rng: Rng,
+    /// Chooses the things that may be open.
+    opened: Rng,
     lived_in: f32,
 }
 
@@ -63,7 +76,7 @@ impl Life {
     /// Makes what life brings into the rooms, behind all parts of the home; screens are turned on.
     pub fn bring(b: &mut Builder, plan: &FloorPlan, decor: &DecorConfig, config: &HomeConfig, rooms: Vec<Furnished>) -> Self {
         let (rng, lived_in) = (config.stream(config.furniture, 10), config.lived_in);
-        let mut life = Self { wishes: Vec::new(), base: b.part_count(), floors: Vec::new(), rng, lived_in };
+        let mut life = Self { wishes: Vec::new(), base: b.part_count(), floors: Vec::new(), rng, opened: opened(config), lived_in };
         let home = decor.palette();
         for (room, furnished) in rooms.into_iter().enumerate() {
             life.floors.push(furnished.floor);
@@ -138,6 +151,7 @@ impl Life {
 
     /// Takes the parts of what life brings out of the scene that the builder has finished.
     pub fn take(&self, scene: &mut Scene, labels: &mut Labels) -> Waiting {
+        scene.bodies.retain(|body| body.parts.iter().all(|&part| (part as usize) < self.base));
         Waiting(Bundle { parts: scene.parts.split_off(self.base), labels: labels.parts.split_off(self.base) })
     }
 
@@ -154,6 +168,7 @@ impl Life {
         for object in ways::closed_by(&stage, moved) {
             stage.put_back(&object);
         }
+        ajar::leave_ajar(&mut stage, &mut self.floors, &self.rng, &self.opened, self.lived_in);
         // Cloth falls on what lies there already.
         for cloth in [false, true] {
             for wish in self.wishes.iter().filter(|wish| wish.cloth.is_some() == cloth) {

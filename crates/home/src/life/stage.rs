@@ -1,14 +1,14 @@
 //! The home while life comes into it: its objects as bodies that know of each other, and what is put among them.
 
 use super::ground::Ground;
-use crate::Home;
-use crate::check::bodies::{bodies_of, triangles};
+use crate::check::bodies::{bodies_of, body_named, triangles};
 use crate::check::contact::{runs_into, touches};
 use crate::gravity::height_between;
+use crate::{Home, open};
 use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{Bounds3, DAffine3, Vec2, Vec3};
-use enfilade_scene::{Part, PartLabel};
+use enfilade_scene::{BodyId, Part, PartId, PartLabel};
 use std::collections::BTreeMap;
 
 /// Distance that is left between what has been put down and what it lies on, metres: contact without faces in one plane.
@@ -204,6 +204,16 @@ impl<'a> Stage<'a> {
             {
                 *body = carried;
             }
+        }
+        self.grounds.clear();
+    }
+
+    /// Makes a state of the joint of this number the rest of what moves by it, whose body and parts these are.
+    pub fn open(&mut self, joint: usize, body: BodyId, parts: &[PartId], state: f64) {
+        open::set(self.home, joint, body, parts, state);
+        let object = object_of(&self.home.joints[joint].body);
+        if let Some(&i) = self.number.get(object) {
+            self.bodies[i] = body_named(&self.home.scene, object);
         }
         self.grounds.clear();
     }

@@ -4,6 +4,7 @@
 //! what each kind is like.
 
 mod places;
+mod soft;
 mod table;
 
 use super::stage::Stage;
@@ -23,15 +24,19 @@ const PICTURES: usize = 3;
 pub fn wear(stage: &mut Stage, rng: &Rng, lived_in: f32) {
     for (number, row) in ROWS.iter().enumerate() {
         let mut rng = rng.fork(number as u64).fork(hash_text("mark"));
-        let materials: Vec<u32> = (0..PICTURES).map(|_| material(stage, row, interpolated(lived_in, row.strength), &mut rng)).collect();
+        // Each is made when the first mark takes it.
+        let looks: [Rng; PICTURES] = std::array::from_fn(|k| rng.fork(k as u64));
+        let mut materials = [None; PICTURES];
         let rate = interpolated(lived_in, row.expected);
         for (part, place) in places(stage, row, rate, &rng) {
-            let mesh = film(place.half);
+            let mesh = place.film.unwrap_or_else(|| film(place.half));
             let number = stage.home.scene.meshes.len() as u32;
             stage.home.scene.meshes.push(mesh.into());
+            let look = rng.below(PICTURES);
+            let strength = interpolated(lived_in, row.strength);
+            let material = *materials[look].get_or_insert_with(|| material(stage, row, strength, &mut looks[look].clone()));
             let own = &stage.home.scene.parts[part];
             let name = format!("{}/mark_{}", object_of(&own.name), stage.home.scene.parts.len());
-            let material = materials[rng.below(materials.len())];
             let added = Part { name, mesh: number, material, world_from_mesh: place.pose, ..own.clone() };
             let label = stage.home.labels.parts[part];
             stage.home.scene.parts.push(added);

@@ -14,8 +14,12 @@ pub enum On {
     Floor,
     /// On top of pieces of these families, for each piece.
     Tops(&'static [&'static str]),
-    /// On parts that are screens or panes before something, for each.
-    Screens,
+    /// On the upper side of soft pieces of these families, for each piece.
+    Soft(&'static [&'static str]),
+    /// On upright screens and panes of these names, for each.
+    Fronts(&'static [&'static str]),
+    /// On leaves of doors of these names, beside the handle, for each.
+    Leaves(&'static [&'static str]),
 }
 
 /// A kind of mark.
@@ -52,11 +56,16 @@ const TABLES: &[&str] = &[
     "play_table",
 ];
 const SHELVES: &[&str] = &["sideboard", "dresser", "tv_bench", "console", "shoe_cabinet", "cube_shelf", "filing_cabinet", "office_cabinet"];
+const SCREENS: &[&str] = &["screen"];
+const PANES: &[&str] = &["pane", "mirror", "glass"];
+const LEAVES: &[&str] = &["leaf"];
+const SEATS: &[&str] =
+    &["sofa", "corner_sofa", "chesterfield", "day_bed", "armchair", "club_chair", "upholstered_chair", "office_chair", "bench", "pouf"];
 const DIRT: Rgb = Rgb::new(0.075, 0.06, 0.045);
 const RUBBER: Rgb = Rgb::new(0.03, 0.028, 0.027);
 
 /// All kinds.
-pub static ROWS: [Row; 12] = [
+pub static ROWS: [Row; 18] = [
     Row {
         kind: Mark::Scuffs,
         on: On::Walls([0.1, 0.42]),
@@ -158,11 +167,65 @@ pub static ROWS: [Row; 12] = [
     },
     Row {
         kind: Mark::Fingers,
-        on: On::Screens,
+        on: On::Fronts(SCREENS),
         size: [[0.2, 0.4], [0.2, 0.4]],
         color: Rgb::new(0.3, 0.3, 0.3),
         strength: [0.03, 0.09],
         expected: [0.6, 1.5],
         gloss: Some(0.3),
+    },
+    Row {
+        kind: Mark::Fingers,
+        on: On::Fronts(PANES),
+        size: [[0.2, 0.45], [0.2, 0.45]],
+        color: Rgb::new(0.4, 0.4, 0.4),
+        strength: [0.035, 0.1],
+        expected: [0.5, 1.6],
+        gloss: Some(0.35),
+    },
+    Row {
+        kind: Mark::Dust,
+        on: On::Fronts(PANES),
+        size: [[3.0, 3.0], [3.0, 3.0]],
+        color: Rgb::new(0.5, 0.48, 0.44),
+        strength: [0.03, 0.1],
+        expected: [0.5, 0.9],
+        gloss: None,
+    },
+    Row {
+        kind: Mark::Grime,
+        on: On::Leaves(LEAVES),
+        size: [[0.08, 0.11], [0.14, 0.34]],
+        color: DIRT,
+        strength: [0.07, 0.2],
+        expected: [0.9, 1.8],
+        gloss: None,
+    },
+    Row {
+        kind: Mark::Fingers,
+        on: On::Leaves(LEAVES),
+        size: [[0.09, 0.12], [0.1, 0.2]],
+        color: DIRT,
+        strength: [0.06, 0.16],
+        expected: [0.6, 1.5],
+        gloss: None,
+    },
+    Row {
+        kind: Mark::Spill,
+        on: On::Soft(SEATS),
+        size: [[0.06, 0.16], [0.06, 0.16]],
+        color: DIRT,
+        strength: [0.1, 0.28],
+        expected: [0.35, 1.3],
+        gloss: None,
+    },
+    Row {
+        kind: Mark::Grime,
+        on: On::Soft(SEATS),
+        size: [[0.22, 0.42], [0.2, 0.36]],
+        color: DIRT,
+        strength: [0.06, 0.15],
+        expected: [0.7, 1.6],
+        gloss: None,
     },
 ];
