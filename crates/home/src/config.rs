@@ -79,8 +79,8 @@ options! {
         pub lived_in: f32 = 0.5 => named("SHARE"),
         /// What is open: `made`, `closed`, `open`, `random`, or, in files, a share of the range, or a table of these by name.
         ///
-        /// Furniture has an inside and joints where it is given; without it, homes are those of earlier versions, in which nothing can be
-        /// opened. `made` leaves everything as it is in these. Names are those of joints (`dresser_1/drawer_2_1`), of objects (`door_1`), both
+        /// Furniture has an inside and joints where it is given; without it, nothing can be opened, and only drawers and doors that are ajar
+        /// where people live (`lived_in`) have an inside. `made` leaves everything as it is without it. Names are those of joints (`dresser_1/drawer_2_1`), of objects (`door_1`), both
         /// also with `*` and `?`, or kinds (`drawer`).
         #[serde(skip_serializing_if = "Option::is_none")]
         pub states: Option<States> = None,

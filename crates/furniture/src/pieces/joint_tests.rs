@@ -10,10 +10,11 @@ use enfilade_scene::{Body as Moving, BodyMotion, BodyStates, Scene};
 use std::collections::BTreeSet;
 
 /// Families with joints, and the most that a variant is known to have at least.
-const JOINTED: [(&str, usize); 26] = [
+const JOINTED: [(&str, usize); 27] = [
     ("bed", 0),
     ("bottle_fridge", 1),
     ("console", 2),
+    ("counter", 3),
     ("desk", 2),
     ("dresser", 3),
     ("dressing_table", 2),

@@ -181,10 +181,13 @@ impl Life {
                 }
             }
         }
-        let put = stage.bodies.iter().map(|body| &body.name).filter(|name| !furniture.contains(*name)).cloned().collect();
+        let put: Vec<String> = stage.bodies.iter().map(|body| &body.name).filter(|name| !furniture.contains(*name)).cloned().collect();
         let away = ways::closed_by(&stage, put);
         if !away.is_empty() {
             stage.remove(|part| away.iter().any(|object| object == object_of(part)));
+            // What lay on it goes too.
+            let fallen = stage.fallen(|object| !furniture.contains(object));
+            stage.remove(|part| fallen.contains(object_of(part)));
         }
         marks::wear(&mut stage, &self.rng, self.lived_in);
     }

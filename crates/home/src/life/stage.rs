@@ -2,14 +2,14 @@
 
 use super::ground::Ground;
 use crate::check::bodies::{bodies_of, body_named, triangles};
-use crate::check::contact::{runs_into, touches};
+use crate::check::contact::{Contacts, runs_into, touches};
 use crate::gravity::height_between;
 use crate::{Home, open};
 use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_furniture::{family_of, object_of};
 use enfilade_math::{Bounds3, DAffine3, Vec2, Vec3};
 use enfilade_scene::{BodyId, Part, PartId, PartLabel};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance that is left between what has been put down and what it lies on, metres: contact without faces in one plane.
 const REST: f32 = 0.0005;
@@ -208,9 +208,10 @@ impl<'a> Stage<'a> {
         self.grounds.clear();
     }
 
-    /// Makes a state of the joint of this number the rest of what moves by it, whose body and parts these are.
+    /// Lets what moves by the joint of this number, whose body and parts these are, be made in a state.
     pub fn open(&mut self, joint: usize, body: BodyId, parts: &[PartId], state: f64) {
         open::set(self.home, joint, body, parts, state);
+        self.home.joints[joint].made = 0.0;
         let object = object_of(&self.home.joints[joint].body);
         if let Some(&i) = self.number.get(object) {
             self.bodies[i] = body_named(&self.home.scene, object);
@@ -233,11 +234,18 @@ impl<'a> Stage<'a> {
         true
     }
 
+    /// The objects among those that `may` fall that nothing carries.
+    pub fn fallen(&self, may: impl Fn(&str) -> bool) -> BTreeSet<String> {
+        let held = Contacts::of_touch(&self.bodies).carried(&self.bodies, |_| true);
+        let loose = self.bodies.iter().zip(held).filter(|(body, held)| !held && may(&body.name));
+        loose.map(|(body, _)| body.name.clone()).collect()
+    }
+
     /// Takes parts out of the home whose names `gone` names.
     pub fn remove(&mut self, gone: impl Fn(&str) -> bool) {
         let parts = self.home.scene.parts.iter().zip(0..).filter(|(part, _)| gone(&part.name)).map(|(_, id)| id).collect();
         let mut id = 0..;
-        self.home.labels.parts.retain(|_| id.next().is_none_or(|id| !std::collections::BTreeSet::contains(&parts, &id)));
+        self.home.labels.parts.retain(|_| id.next().is_none_or(|id| !BTreeSet::contains(&parts, &id)));
         self.home.scene.remove_parts(&parts);
         self.renew(|_| true);
     }

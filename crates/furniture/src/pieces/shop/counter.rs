@@ -5,7 +5,7 @@ use crate::builder::{Builder, Class, Object};
 use crate::joint::{Axis, Joint, JointKind};
 use crate::materials::Finish;
 use crate::pieces::form::{all, cylinder, picture, rod, to_front, turned};
-use crate::pieces::joinery::{drawer_box, hollow_box};
+use crate::pieces::joinery::{INSIDE, drawer_box, hollow_box};
 use crate::pieces::{CONTACT, Furniture, Surface, board, grained, on};
 use crate::shape::{Reshape, rounded_box};
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3};
@@ -32,6 +32,8 @@ const TOP: f32 = 0.035;
 const DEPTH: f32 = 0.68;
 /// Depth of the raised part, metres.
 const EDGE: f32 = 0.26;
+/// Width of the drawers, metres.
+const DRAWERS: f32 = 0.42;
 
 impl Counter {
     /// The height of what customers see.
@@ -59,8 +61,42 @@ impl Counter {
             };
             b.part(object, "strips", grained(all((0..count).map(strip)), rng), self.front);
         }
-        let shelf = board([0.05 - x, 0.06 - y, 0.36], [x - 0.05, y - 0.0704, 0.38], 0.001);
+        let from = if self.has_drawers() { 0.052 - x + DRAWERS } else { 0.05 - x };
+        let shelf = board([from, 0.06 - y, 0.36], [x - 0.05, y - 0.0704, 0.38], 0.001);
         b.part(object, "shelf", grained(shelf, rng), self.front);
+        if self.has_drawers() {
+            self.drawers(b, object);
+        }
+    }
+
+    fn has_drawers(&self) -> bool {
+        self.width > 1.5
+    }
+
+    /// Three drawers below the top where people work.
+    fn drawers(&self, b: &mut Builder, object: &Object) {
+        // They are made open to +y, and turned.
+        let turned = |mesh: enfilade_geometry::Mesh| mesh.turned(Vec3::Z, std::f32::consts::PI);
+        let (x1, front) = (0.5 * self.width - 0.0515, 0.5 * DEPTH - 0.055);
+        let (x0, top) = (x1 - DRAWERS, if self.raised { LOW } else { HIGH } - TOP - 0.0008);
+        let (low, high) = ([x0, front - 0.45, 0.09], [x1, front, top]);
+        let case = if b.has_joints() { hollow_box(low, high, INSIDE) } else { board(low, high, 0.001) };
+        b.part(object, "drawers", turned(case), self.front);
+        let height = (top - 0.09) / 3.0;
+        for k in 0..3 {
+            let z = 0.09 + height * k as f32;
+            let rect = [x0 + 0.0015, x1 - 0.0015, z + 0.0015, z + height - 0.0015];
+            let from = b.part_count();
+            let face = board([rect[0], front + 0.0004, rect[2]], [rect[1], front + 0.018, rect[3]], 0.0015);
+            b.part(object, &format!("drawer_{}", k + 1), turned(face), self.front);
+            let grip = board([x0 + 0.12, front + 0.0178, rect[3] - 0.05], [x1 - 0.12, front + 0.034, rect[3] - 0.038], 0.002);
+            b.part(object, &format!("drawer_{}_grip", k + 1), turned(grip), Finish::Steel);
+            if b.has_joints() {
+                b.part(object, &format!("drawer_{}_box", k + 1), turned(drawer_box(rect, front, 0.42)), Finish::WhiteLacquer);
+            }
+            let joint = Joint { kind: JointKind::Drawer, axis: Axis::Slide(DVec3::NEG_Y), limits: [0.0, 0.33] };
+            b.joint(object, &format!("drawer_{}", k + 1), &joint, from..b.part_count());
+        }
     }
 
     fn tops(&self, b: &mut Builder, object: &Object, rng: &mut Rng) {

@@ -54,7 +54,10 @@ impl Goods {
             Self::Cartons => printed(bevelled_box(size, 0.0012), size, cell),
             Self::Bags => {
                 let bag = padded_box(Vec3::new(size.x, size.z, 0.35 * size.y), 0.1 * size.y, 0.3 * size.y);
-                printed(bag.turned(Vec3::X, std::f32::consts::FRAC_PI_2), size, cell)
+                let bag = bag.turned(Vec3::X, std::f32::consts::FRAC_PI_2);
+                // Its seams are drawn in: it stands on the lower one.
+                let low = bag.bounds().min.z;
+                printed(bag.moved(Vec3::new(0.0, 0.0, -0.5 * size.z - low)), size, cell)
             }
             Self::Tins => {
                 let (r, h) = (0.5 * size.x, size.z);
