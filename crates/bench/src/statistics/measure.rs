@@ -14,6 +14,8 @@ use std::time::Instant;
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Measured {
     pub seed: u64,
+    /// Name of the kind of building.
+    pub building: String,
     pub wall_s: f64,
     pub cpu_s: f64,
     /// Peak memory of the process when the home was finished, megabytes.
@@ -67,6 +69,7 @@ pub fn measure(config: &HomeConfig) -> Result<Measured, Box<dyn std::error::Erro
     let scene = &made.scene;
     Ok(Measured {
         seed: config.seed,
+        building: config.building.name().into(),
         wall_s,
         cpu_s,
         peak_mb,

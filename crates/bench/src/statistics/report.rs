@@ -1,5 +1,6 @@
 //! The page `docs/benchmarks/homes.md`, and `homes.json` beside it.
 
+use super::buildings;
 use super::measure::{Measured, Object};
 use super::published::{
     DWELLING_M2, HYPERSIM_INSTANCES, HYPERSIM_SCENES, HYPERSIM_SCENES_WITH, HYPERSIM_VOLUMES_M3, ROOM_SOURCES, ROOMS, SIZE_SOURCES,
@@ -7,16 +8,21 @@ use super::published::{
 use super::remarks;
 use super::sizes;
 use super::spread::{Spread, tidy};
+use enfilade_home::Building;
 use enfilade_scene::{NYU40, is_stuff};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// Writes both files into `folder`.
-pub fn write(homes: &[Measured], folder: &Path) -> std::io::Result<()> {
+pub fn write(all: Vec<Measured>, folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
-    std::fs::write(folder.join("homes.md"), page(homes))?;
-    std::fs::write(folder.join("homes.json"), serde_json::to_string_pretty(&figures(homes))? + "\n")
+    let (table, buildings) = (buildings::table(&all), buildings::figures(&all));
+    let homes: Vec<Measured> = all.into_iter().filter(|made| made.building == Building::Home.name()).collect();
+    let mut figures = figures(&homes);
+    figures["buildings"] = buildings;
+    std::fs::write(folder.join("homes.md"), page(&homes) + &table)?;
+    std::fs::write(folder.join("homes.json"), serde_json::to_string_pretty(&figures)? + "\n")
 }
 
 fn page(homes: &[Measured]) -> String {

@@ -75,7 +75,9 @@ impl Sheet {
     /// The sheet with every second point across and along.
     fn coarser(&self) -> Option<Self> {
         let halves = |n: usize| n % 2 == 1 && n > MANY;
-        if self.textile.cut != Cut::Plain || !self.count.into_iter().all(halves) {
+        // What is thick for its grid keeps from itself with all of its points only, and narrow pieces need all of them.
+        let thick = 4.0 * self.textile.half > self.textile.pitch;
+        if thick || self.textile.cut != Cut::Plain || !self.count.into_iter().all(halves) {
             return None;
         }
         let count = self.count.map(|n| n.div_ceil(2));
