@@ -8,7 +8,8 @@ use super::wish::Wish;
 use crate::place::Floor;
 use crate::room::Footprint;
 use enfilade_furniture::cloth::{Sheet, Solid, Textile};
-use enfilade_furniture::meet::Body;
+use enfilade_furniture::family_of;
+use enfilade_furniture::meet::{Body, overlap};
 use enfilade_geometry::Mesh;
 use enfilade_math::{Bounds3, DAffine3, Rng, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
@@ -117,12 +118,16 @@ fn held_over(stage: &mut Stage, floor: &Floor, wish: &Wish, textile: Textile, rn
     };
     let mut sheet = Sheet::new(textile, at.extend(0.0), yaw, crumpled, rng);
     let bounds = bounds_of(&sheet)?;
-    // Above all that it covers, but for what is too high to be below it.
+    // Above all that it covers, but for what is too high to be below it. Nobody throws cloth on curtains, which are too thin to carry it.
     let column = Bounds3 { min: bounds.min.truncate().extend(0.0), max: bounds.max.truncate().extend(1.25) };
+    let is_curtain = |body: &Body| family_of(&body.name).ends_with("curtain") && overlap(&body.bounds, &column, 0.0);
+    if stage.bodies.iter().any(is_curtain) {
+        return None;
+    }
     let top = stage
         .bodies
         .iter()
-        .filter(|body| enfilade_furniture::meet::overlap(&body.bounds, &column, 0.0))
+        .filter(|body| overlap(&body.bounds, &column, 0.0))
         .filter_map(|body| highest(body, &column));
     let height = top.fold(0.0f32, f32::max) + ABOVE - bounds.min.z;
     let lift = Vec3::Z * height;
