@@ -147,11 +147,11 @@ fn pieces<'p>(group: &'p Group, parts: &'p [Vec<Piece>]) -> impl Iterator<Item =
     group.parts.iter().flat_map(move |part| &parts[*part as usize])
 }
 
-fn solids(group: &Group, parts: &[Vec<Piece>]) -> Vec<Solid> {
+pub(crate) fn solids(group: &Group, parts: &[Vec<Piece>]) -> Vec<Solid> {
     pieces(group, parts).map(|piece| piece.solid.clone()).collect()
 }
 
-fn told(names: &BTreeSet<String>) -> String {
+pub(crate) fn told(names: &BTreeSet<String>) -> String {
     let first: Vec<&str> = names.iter().take(TOLD).map(String::as_str).collect();
     let more = if names.len() > TOLD { ", …" } else { "" };
     format!("{}{more}", first.join(", "))
