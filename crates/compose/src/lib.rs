@@ -39,6 +39,6 @@ pub use motion::{MotionGroup, with_motion};
 pub use passage::Passage;
 pub use rest::moved_again;
 pub use solid::{Moments, SHEET_M, Solid, convex_solid, solids};
-pub use unrest::{Way, overlaps, unrest};
+pub use unrest::{Thing, Way, overlaps, unrest};
 pub use words::{ClassWord, Extent, Many, Number};
 pub use world::{FRICTION, SOLVER};
