@@ -5,6 +5,7 @@
 //! with two sides.
 
 mod apart;
+mod block;
 mod fall;
 mod mesh;
 mod sheet;

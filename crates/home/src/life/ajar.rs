@@ -72,7 +72,8 @@ fn opening(home: &Home, name: &str, rng: &mut Rng) -> Option<Opening> {
 fn is_free(stage: &Stage, floors: &mut [Floor], opening: &Opening) -> bool {
     let (closed, own) = (opening.mover.at(0.0), opening.mover.name());
     let others: Vec<&Body> = stage.bodies.iter().filter(|body| body.name != own).collect();
-    if others.iter().any(|other| touches(&closed, other, Vec3::ZERO)) {
+    // What is smaller and touches it may hang or lie on it; what is larger stands beside it.
+    if others.iter().any(|other| other.volume() < closed.volume() && touches(&closed, other, Vec3::ZERO)) {
         return false;
     }
     if opening.mover.reach(opening.by, &others).stopped_by.is_some() {

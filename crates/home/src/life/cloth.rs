@@ -124,11 +124,7 @@ fn held_over(stage: &mut Stage, floor: &Floor, wish: &Wish, textile: Textile, rn
     if stage.bodies.iter().any(is_curtain) {
         return None;
     }
-    let top = stage
-        .bodies
-        .iter()
-        .filter(|body| overlap(&body.bounds, &column, 0.0))
-        .filter_map(|body| highest(body, &column));
+    let top = stage.bodies.iter().filter(|body| overlap(&body.bounds, &column, 0.0)).filter_map(|body| highest(body, &column));
     let height = top.fold(0.0f32, f32::max) + ABOVE - bounds.min.z;
     let lift = Vec3::Z * height;
     sheet.points.iter_mut().for_each(|p| *p += lift);
