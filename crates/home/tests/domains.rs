@@ -45,7 +45,7 @@ fn other_light_leaves_geometry_and_reflectances_as_they_are() {
 #[test]
 fn the_world_outside_is_bright_by_day_and_dark_at_night_but_for_lit_windows() {
     let sky = |moment| {
-        let scene = home(&HomeConfig { moment: Some(moment), ..config() }).scene;
+        let scene = home(&HomeConfig { moment: Some(moment), lived_in: 0.0, ..config() }).scene;
         let Some(Environment::Map { image, .. }) = scene.environment else { panic!("a home has surroundings") };
         let Pixels::RgbF32(texels) = &scene.images[image as usize].pixels else { panic!("its sky has a high range") };
         let luminances: Vec<f32> = texels.iter().map(|t| Rgb::from(*t).luminance()).collect();

@@ -82,8 +82,8 @@ fn check_all(make: &(dyn Fn(&HomeConfig) -> Home + Sync)) {
     let seeds: Vec<u64> = (0..enfilade_testkit::seeds(SEEDS[0], SEEDS[1])).collect();
     let removed = enfilade_parallel::map(&seeds, |&seed| {
         // Every fifth home is lived in; the others are made faster.
-        let clutter = if seed % 5 == 0 { 1.0 } else { 0.1 };
-        let home = make(&HomeConfig { clutter, ..HomeConfig::of_seed(seed) });
+        let (clutter, lived_in) = if seed % 5 == 0 { (1.0, 0.5) } else { (0.1, 0.0) };
+        let home = make(&HomeConfig { clutter, lived_in, ..HomeConfig::of_seed(seed) });
         let name = format!("seed {seed}");
         assert_eq!(home.scene.validate(), Ok(()), "{name}");
         assert_eq!(faults(&home), [], "{name}");
