@@ -90,7 +90,7 @@ mod tests {
         assert!(mesh.positions.iter().all(|p| (p.z - FILM).abs() < 1e-4));
         assert!(mesh.normals.iter().all(|n| n.z > 0.99) && mesh.validate() == Ok(()));
         // Over the border its points are lower, between the cushions there is none.
-        let border = film(&body, &at(0.48), 0.5).unwrap();
+        let border = film(&body, &at(0.45), 0.5).unwrap();
         assert!(border.positions.iter().any(|p| p.z < -0.001));
         assert!(film(&body, &at(0.0), 0.5).is_none());
     }
