@@ -9,6 +9,8 @@ use enfilade_math::Vec3;
 const SINK: f32 = 0.004;
 /// Cloth and cushions, which give way, may sink this far into others, metres.
 const SOFT_SINK: f32 = 0.03;
+/// Shares of their reach by which bodies are moved towards others: cloth that lies flat is thinner than all of it, and would be within.
+const SHARES: [f32; 2] = [1.0, 0.2];
 /// The six ways along the axes.
 const WAYS: [Vec3; 6] = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
 
@@ -41,7 +43,7 @@ pub fn touches(a: &Body, b: &Body, offset: Vec3) -> bool {
     let reach = reach(&a.name, &b.name);
     a.bounds.min.cmple(b.bounds.max + reach - offset).all()
         && b.bounds.min.cmple(a.bounds.max + reach + offset).all()
-        && (a.meets(b, offset) || WAYS.iter().any(|way| a.meets(b, offset + *way * reach)))
+        && (a.meets(b, offset) || SHARES.iter().any(|share| WAYS.iter().any(|way| a.meets(b, offset + *way * (share * reach)))))
 }
 
 /// Pairs of bodies that may touch; not those of the shell.
@@ -117,4 +119,24 @@ fn meetings(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
 
 fn touching(bodies: &[Body], pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
     enfilade_parallel::flat_map(pairs, |&(a, b)| touches(&bodies[a], &bodies[b], Vec3::ZERO).then_some((a, b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use enfilade_furniture::shape::{Reshape, bevelled_box};
+
+    #[test]
+    fn a_towel_that_lies_flat_touches_the_floor() {
+        let body = |name: &str, size: [f32; 3], at: [f32; 3]| {
+            let mesh = bevelled_box(Vec3::from_array(size), 0.001).moved(Vec3::from_array(at));
+            let mut body = Body::new(name);
+            body.push((0..mesh.triangles.len()).map(|t| mesh.corners(t)).collect());
+            body
+        };
+        let floor = body("floor_gym_1", [4.0, 4.0, 0.3], [0.0, 0.0, -0.15]);
+        let towel = |z: f32| body("towel_1", [1.0, 0.6, 0.012], [0.0, 0.0, z]);
+        assert!(touches(&towel(0.0076), &floor, Vec3::ZERO));
+        assert!(!touches(&towel(0.04), &floor, Vec3::ZERO));
+    }
 }

@@ -3,6 +3,7 @@
 //! A mark is a film that lies 0.3 mm before its surface and covers it partly; it is a part of the object that it is on. The table gives
 //! what each kind is like.
 
+mod place;
 mod places;
 mod soft;
 mod table;

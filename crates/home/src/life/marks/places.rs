@@ -2,13 +2,13 @@
 
 use super::super::stage::Stage;
 use super::super::walls;
+use super::place::Place;
 use super::soft::on_soft;
 use super::table::{On, Row};
 use crate::room::{Footprint, Room};
 use crate::shell::is_shell;
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::{family_of, object_of, pose};
-use enfilade_geometry::Mesh;
 use enfilade_math::{DAffine3, DVec3, Rng, Vec2, Vec3, hash_text};
 use enfilade_textures::Mark;
 use std::f32::consts::{FRAC_PI_2, TAU};
@@ -24,20 +24,6 @@ const EVEN: f32 = 0.0008;
 const STILE: f32 = 0.13;
 /// Walls keep this much free beside openings, metres.
 const CASING: f32 = 0.12;
-
-/// Where a mark is: a rectangle whose middle is the origin of the pose, along its x and y.
-pub(super) struct Place {
-    pub pose: DAffine3,
-    pub half: Vec2,
-    /// The film, if it is not that rectangle.
-    pub film: Option<Mesh>,
-}
-
-impl Place {
-    fn flat(pose: DAffine3, half: Vec2) -> Self {
-        Self { pose, half, film: None }
-    }
-}
 
 /// The places of the marks of a row, each with a part of the object that it is on.
 pub(super) fn places(stage: &mut Stage, row: &Row, rate: f32, rng: &Rng) -> Vec<(usize, Place)> {

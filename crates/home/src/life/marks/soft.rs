@@ -1,7 +1,7 @@
 //! Marks on cushions, seats and covers: films that follow what they are on.
 
 use super::super::stage::Stage;
-use super::places::Place;
+use super::place::Place;
 use crate::room::Footprint;
 use enfilade_furniture::meet::{Body, Triangle, around};
 use enfilade_furniture::shape::Reshape;
