@@ -41,9 +41,10 @@ pub fn cores_meet([a, b]: [&Body; 2], cores: [Option<&Body>; 2], offset: Vec3) -
 /// True when `a`, moved by `offset`, comes so near to `b` that either can carry the other.
 pub fn touches(a: &Body, b: &Body, offset: Vec3) -> bool {
     let reach = reach(&a.name, &b.name);
+    let shares = if reach < SOFT_REACH { &SHARES[..1] } else { &SHARES };
     a.bounds.min.cmple(b.bounds.max + reach - offset).all()
         && b.bounds.min.cmple(a.bounds.max + reach + offset).all()
-        && (a.meets(b, offset) || SHARES.iter().any(|share| WAYS.iter().any(|way| a.meets(b, offset + *way * (share * reach)))))
+        && (a.meets(b, offset) || shares.iter().any(|share| WAYS.iter().any(|way| a.meets(b, offset + *way * (share * reach)))))
 }
 
 /// Pairs of bodies that may touch; not those of the shell.
