@@ -4,6 +4,7 @@ use super::ground::Ground;
 use crate::check::bodies::{bodies_of, body_named, triangles};
 use crate::check::contact::{Contacts, runs_into, touches};
 use crate::gravity::height_between;
+use crate::shell::is_shell;
 use crate::{Home, open};
 use enfilade_furniture::meet::{Body, Triangle, overlap};
 use enfilade_furniture::{family_of, object_of};
@@ -136,7 +137,9 @@ impl<'a> Stage<'a> {
             near.iter().any(|other| touches(body, other, down))
                 || group.iter().any(|other| other.name != body.name && touches(body, other, Vec3::ZERO))
         });
-        (lowest < DROP && free && held).then_some(by)
+        // Not by each other alone.
+        let carried = group.iter().any(|body| near.iter().any(|other| touches(body, other, down)));
+        (lowest < DROP && free && held && carried).then_some(by)
     }
 
     /// Puts a bundle into the home in a pose.
@@ -177,11 +180,19 @@ impl<'a> Stage<'a> {
             let held = moved.first().is_some_and(|body| around(body).iter().any(|other| touches(body, other, Vec3::ZERO)));
             (free && held).then_some(0.0)
         };
-        let Some(by) = by else { return false };
+        let Some(by) = by.filter(|_| self.can_spare(&group)) else { return false };
         let pose = DAffine3::from_translation(Vec3::new(0.0, 0.0, by).as_dvec3()) * turn;
         self.shift(objects, pose);
         self.nudged.push((objects.to_vec(), pose));
         true
+    }
+
+    /// True when all that touches bodies of a group is carried by others too, and stays where it is without them.
+    fn can_spare(&self, group: &[usize]) -> bool {
+        let others = || self.bodies.iter().enumerate().filter(|(i, _)| !group.contains(i));
+        let touching =
+            |(_, body): &(usize, &Body)| !is_shell(&body.name) && group.iter().any(|&g| touches(&self.bodies[g], body, Vec3::ZERO));
+        others().filter(touching).all(|(i, body)| others().any(|(j, other)| i != j && touches(body, other, Vec3::ZERO)))
     }
 
     /// Moves objects wherever that leads.
