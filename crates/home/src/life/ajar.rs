@@ -6,12 +6,13 @@ use crate::Home;
 use crate::check::bodies::triangles;
 use crate::check::contact::touches;
 use crate::check::sweep::Mover;
+use crate::check::walk;
 use crate::place::Floor;
 use crate::room::Footprint;
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::{JointKind, object_of};
 use enfilade_math::{Rng, Vec3, hash_text};
-use enfilade_scene::{BodyId, BodyStates, PartId};
+use enfilade_scene::{BodyId, BodyStates, Part, PartId};
 
 /// Share of the things with drawers and doors that are opened now and then, at ½ and at 1: the others have no inside.
 pub const OPENED: [f32; 2] = [0.3, 0.55];
@@ -36,6 +37,8 @@ struct Opening {
 /// things have an inside.
 pub fn leave_ajar(stage: &mut Stage, floors: &mut [Floor], rng: &Rng, chosen: &Rng, lived_in: f32) {
     let (often, opened) = (interpolated(lived_in, AJAR), interpolated(lived_in, OPENED));
+    let closed = walk::unreachable(stage.home).len();
+    let mut ajar = Vec::new();
     for number in 0..stage.home.joints.len() {
         let joint = &stage.home.joints[number];
         let mut rng = rng.fork(hash_text(&joint.body)).fork(hash_text("ajar"));
@@ -47,6 +50,12 @@ pub fn leave_ajar(stage: &mut Stage, floors: &mut [Floor], rng: &Rng, chosen: &R
         let Some(opening) = opening(stage.home, &joint.body, &mut rng) else { continue };
         if is_free(stage, floors, &opening) {
             stage.open(number, opening.body, &opening.parts, opening.by);
+            ajar.push((number, opening));
+        }
+    }
+    if walk::unreachable(stage.home).len() > closed {
+        for (number, opening) in ajar {
+            stage.open(number, opening.body, &opening.parts, -opening.by);
         }
     }
 }
@@ -54,6 +63,11 @@ pub fn leave_ajar(stage: &mut Stage, floors: &mut [Floor], rng: &Rng, chosen: &R
 /// How far what has this joint is open: mostly little.
 fn opening(home: &Home, name: &str, rng: &mut Rng) -> Option<Opening> {
     let (number, body) = (0..).zip(&home.scene.bodies).find(|(_, body)| body.name == name)?;
+    // What is its front alone would hang in the air.
+    let stays = |(part, id): (&Part, PartId)| object_of(&part.name) == object_of(name) && !body.parts.contains(&id);
+    if !home.scene.parts.iter().zip(0..).any(stays) {
+        return None;
+    }
     let states = &body.motion.states;
     let [least, most] = match states {
         BodyStates::Slide { .. } => DRAWN,
