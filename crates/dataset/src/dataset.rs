@@ -61,6 +61,19 @@ impl Dataset {
         Ok(dataset)
     }
 
+    /// The dataset that a run is about to make in a folder that is there and has no folders yet, apart from hidden ones.
+    ///
+    /// # Errors
+    /// When the folder cannot be read, or has folders that are no dataset.
+    pub fn awaited(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
+        let root = root.as_ref();
+        let is_folder = |name: &String| !name.starts_with('.') && root.join(name).is_dir();
+        match crate::read::sorted_names(root)?.iter().find(|name| is_folder(name)) {
+            None => Ok(Self { layout: Layout::new(root), camera_table: None }),
+            Some(_) => Self::open(root),
+        }
+    }
+
     /// The dataset's folder.
     pub fn root(&self) -> &Path {
         self.layout.root()

@@ -10,9 +10,12 @@
 //! tables are written shortly after (`save.rs`). Reviews of pieces are not labels and have a separate log (`review.rs`).
 
 mod action;
+mod again;
 mod answer;
 mod app;
+mod author;
 mod camera;
+mod carry;
 mod change;
 mod clock;
 mod events;
@@ -20,6 +23,7 @@ mod face_colors;
 mod json_lines;
 mod log;
 mod options;
+mod part_shapes;
 mod pieces;
 mod planned;
 mod progress;

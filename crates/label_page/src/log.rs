@@ -29,7 +29,10 @@ pub enum LogError {
     InUse(PathBuf),
     /// The log is about another scene.
     #[error(
-        "{} is about another scene ({log}; here {scene}); name another folder with --labels, or move the log away to start again", path.display()
+        "{} is about another scene ({log}; here {scene}); --carry {} takes its labels along, by names and shapes of parts; or name another \
+         folder with --labels, or move the log away to start again",
+        path.display(),
+        path.parent().unwrap_or(path).display()
     )]
     OtherScene {
         /// The file.

@@ -1,5 +1,6 @@
 //! An edit as recorded in the log: every decision is made, so that repeating it gives the same labels.
 
+use super::steps::Steps;
 use enfilade_dataset::number_runs;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,16 @@ pub enum Edit {
     Undo,
     /// The last edit that was undone was done again.
     Redo,
+    /// An edit that was not the last one was undone: that of one person, below later ones of others.
+    UndoOf {
+        /// The revision at which it was last done.
+        revision: u64,
+    },
+    /// An edit that was not undone last was done again.
+    RedoOf {
+        /// The revision at which it was last done.
+        revision: u64,
+    },
 }
 
 impl Edit {
@@ -42,8 +53,8 @@ impl Edit {
     pub fn description(&self) -> &str {
         match self {
             Self::Label { description, .. } | Self::Split { description, .. } => description,
-            Self::Undo => "Undo",
-            Self::Redo => "Redo",
+            Self::Undo | Self::UndoOf { .. } => "Undo",
+            Self::Redo | Self::RedoOf { .. } => "Redo",
         }
     }
 }
@@ -54,8 +65,8 @@ pub struct Before<'a> {
     pub pieces: usize,
     /// The piece of every face.
     pub piece_of_face: &'a [u32],
-    /// Number of edits that can be undone, and that can be redone.
-    pub steps: [usize; 2],
+    /// Edits that can be undone, and that can be redone.
+    pub steps: &'a Steps,
 }
 
 impl Edit {
@@ -64,11 +75,9 @@ impl Edit {
     /// # Errors
     /// The problem.
     pub fn check(&self, before: &Before<'_>) -> Result<(), String> {
-        let [undoable, redoable] = before.steps;
         match self {
-            Self::Undo if undoable == 0 => Err("there is nothing to undo".into()),
-            Self::Redo if redoable == 0 => Err("there is nothing to do again".into()),
-            Self::Undo | Self::Redo => Ok(()),
+            Self::Undo | Self::UndoOf { .. } => before.steps.undone_by(self).map(drop),
+            Self::Redo | Self::RedoOf { .. } => before.steps.redone_by(self).and_then(|at| before.steps.redone(at).check(before)),
             Self::Label { pieces, semantic, instance, .. } => {
                 let fits = semantic.len() == pieces.len() && instance.len() == pieces.len();
                 let known = pieces.iter().all(|&piece| (piece as usize) < before.pieces);

@@ -40,6 +40,9 @@ pub struct Entry {
     pub time: String,
     /// The client that requested it.
     pub client: String,
+    /// The name of the person; logs of programs that knew no names have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub who: Option<String>,
     /// The client's name for it, by which a repeated request is recognised. Edits that came without one have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,

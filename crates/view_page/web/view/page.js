@@ -3,6 +3,7 @@
 import { byId, el } from "../shared/dom.js";
 import { oneTabStop } from "../shared/one_tab_stop.js";
 import { resizable } from "../shared/resizable.js";
+import { say } from "../shared/say.js";
 import { takeChosenTheme, toggleTheme } from "../shared/theme.js";
 import { toast, toastError } from "../shared/toast.js";
 import { fileUrl, getFrame } from "./catalogue.js";
@@ -12,21 +13,27 @@ import { filterPanel } from "./filters.js";
 import { Gallery } from "./gallery.js";
 import { listenToKeys, showHelp } from "./keys.js";
 import { GROUPS } from "./kinds.js";
+import { layerSearch } from "./layer_search.js";
 import { showDifferenceLegend, showLegend } from "./legend.js";
 import { showMessage } from "./message.js";
 import { objectsPanel } from "./objects.js";
 import { PairsPanel } from "./pairs.js";
 import { showReadout } from "./readout.js";
-import { framePanel, lossesOf, viewsPanel } from "./records.js";
+import { rulerWords, withEnd } from "./ruler.js";
+import { faultText, framePanel, lossesOf, viewsPanel } from "./records.js";
 import { savePicture } from "./save.js";
 import { TWO } from "./session.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
+import { factsOf, nextTrack } from "./tracks.js";
 import { Travel } from "./travel.js";
 import { Tree } from "./tree.js";
 import { Watch } from "./watch.js";
 
 /** @typedef {import("./state.js").State} State */
+
+/** What is shown is told when it has not changed for this long, milliseconds. */
+const TELL_MS = 350;
 
 export class Page {
     /** @param {import("./session.js").Session} session @param {import("./state.js").Store} store */
@@ -39,6 +46,8 @@ export class Page {
         this.travel = new Travel(session);
         this.pairs = new PairsPanel(session, () => this.panel());
         this.gallery = new Gallery(session, () => this.panel());
+        this.findLayer = layerSearch(session);
+        this.telling = 0;
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
         /** @type {import("./catalogue.js").FrameFacts | null} */
@@ -111,12 +120,65 @@ export class Page {
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
+        // What was measured is of one frame, unless an address says both.
+        if (has("frame", "camera", "scene") && !has("ruler") && state.ruler) this.store.set({ ruler: "" }, { step: false });
+        if (has("ruler")) this.session.refresh();
+        if (has("frame", "track")) this.#followTrack();
+        if (has("frame", "layer", "mode", "camera")) this.#tell();
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
         if (has("view")) this.space?.look();
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
+    }
+
+    /** Keeps the point that is followed alone in the middle of a picture that is enlarged. */
+    #followTrack() {
+        const { track, frame, zoom } = this.store.state;
+        const followed = track > 0 && zoom > 0 && this.session.camera ? this.session.tracks.of(this.session.camera) : null;
+        const place = followed && factsOf(followed, track, frame).place;
+        if (place) this.store.set({ x: place[0], y: place[1] }, { step: false });
+    }
+
+    /** Follows the next point of the frame alone. */
+    nextTrack() {
+        const { camera, tracks } = this.session;
+        const followed = camera ? tracks.of(camera) : null;
+        const { frame, track } = this.store.state;
+        this.store.set({ tracks: true, track: followed ? nextTrack(followed, frame, track) : 0 });
+    }
+
+    /** Puts an end of the ruler at the pixel under the cursor. */
+    measure() {
+        const { pixel } = this.stage;
+        if (!pixel || pixel.side > 0) return toast("Point at the picture to measure.", "With the mouse, or Ctrl and the arrows.");
+        this.store.set({ ruler: withEnd(this.store.state.ruler, pixel), tab: "display" });
+        this.session.refresh();
+        this.#tellSoon(() => (this.store.state.ruler ? rulerWords(this.session) : "No distance is measured."));
+    }
+
+    /** Moves the pixel whose values are read, and tells them. @param {number} dx @param {number} dy */
+    readPixel(dx, dy) {
+        this.stage.movePixel(dx, dy);
+        this.#tellSoon(() => [...byId("readout").children].map((line) => line.textContent?.replace(/\s+/gu, " ").trim()).filter(Boolean).join("; "));
+    }
+
+    /** Tells screen readers which frame and layer is shown. */
+    #tell() {
+        this.#tellSoon(() => {
+            const { mode, frame, layer } = this.store.state;
+            const frames = this.session.frames();
+            if (mode === "gallery" || !frames.length) return "";
+            const faults = this.session.camera?.frames.find((one) => one.frame === frame)?.faults ?? [];
+            return [`Frame ${frame}, ${frames.indexOf(frame) + 1} of ${frames.length}`, mode === "space" ? "3D" : this.session.looks.title(layer), ...faults.map(faultText)].join(", ");
+        });
+    }
+
+    /** Tells something when nothing new has come for a while. @param {() => string} words */
+    #tellSoon(words) {
+        clearTimeout(this.telling);
+        this.telling = setTimeout(() => say(words()), TELL_MS);
     }
 
     /** Another camera gives the other picture. */
@@ -164,11 +226,25 @@ export class Page {
         const sides = session.sides();
         for (const i of [0, 1]) showLegend(/** @type {HTMLElement} */ (byId(`heading-${i}`).querySelector(".legend")), session, sides[i]);
         showDifferenceLegend(/** @type {HTMLElement} */ (byId("heading-2").querySelector(".legend")), session);
-        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side)).find((one) => one) ?? null);
+        this.#message(sides);
         byId("busy").hidden = session.complete && !travel.direction;
         byId("busy").textContent = travel.direction && travel.shown > 3 ? `${travel.rate.toFixed(0)} frames/s` : session.complete ? "" : "reading …";
         this.readout();
         this.panel();
+    }
+
+    /** Says what cannot be shown: of one of two pictures in its place, else over all. @param {import("./session.js").Side[]} sides */
+    #message(sides) {
+        const { session, stage, store } = this;
+        const failures = sides.map((side) => session.failureOf(side) ?? null);
+        const general = session.problem ?? session.noDifference;
+        const failed = failures.findIndex((one) => one);
+        const element = byId("message");
+        const isOfOne = !general && sides.length > 1 && failed >= 0 && failures.filter((one) => one).length === 1 && store.state.mode !== "difference";
+        const { x, y, width, height } = isOfOne ? stage.areaOf(failed) : { x: 0, y: 0, width: 0, height: 0 };
+        const px = (/** @type {number} */ device) => (isOfOne ? `${device / stage.ratio}px` : "");
+        Object.assign(element.style, { left: px(x + width / 2), top: px(y + height / 2), maxWidth: px(0.94 * width) });
+        showMessage(element, general ?? failures[failed] ?? null);
     }
 
     readout() {
@@ -182,7 +258,7 @@ export class Page {
         const panel = byId("panel");
         if (this.travel.direction && this.travel.held) return;
         const tab = state.mode === "gallery" ? "filter" : state.tab;
-        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey, this.pairs.key]);
+        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), state.ruler && rulerWords(session), !!session.camera && state.tracks && !!session.tracks.of(session.camera), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey, this.pairs.key]);
         if (key === this.panelKey) return;
         const typing = panel.contains(document.activeElement) && document.activeElement?.matches("input");
         if (typing && this.panelTab === tab && this.panelFrame === state.frame) return;
@@ -272,6 +348,7 @@ export class Page {
         const commands = commandsOf(this);
         listenToKeys(commands);
         byId("menu").addEventListener("click", () => byId("menu").hidePopover());
+        byId("find-layer").addEventListener("click", () => this.findLayer());
         byId("help-button").addEventListener("click", () => showHelp(commands));
         byId("flicker").addEventListener("click", () => store.set({ flicker: !store.state.flicker }));
         byId("save").addEventListener("click", () => this.save());
