@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { browser, labelOf, lookFromFront, open, room, saved, select, selected, serve, told } from "./room.mjs";
+import { browser, draw, labelOf, lookFromFront, open, pixelOf, room, saved, select, selected, serve, told } from "./room.mjs";
 
 /** Gives a piece a class by keys. */
 async function give(page, name, key) {
@@ -65,22 +65,15 @@ test("undo is a person's own, and what others do shows by name", async (t) => {
     assert.match(log, /"who":"Ben".*\n.*"who":"Ada".*"undo_of"/u);
 });
 
-/** Two desks of three parts in groups, one of which is turned by a quarter. */
-const groups = () => {
-    const box = ([x0, y0, z0], [x1, y1, z1], [x, y], turned) => {
-        const at = ([a, b, c]) => (turned ? [x - b, y + a, c] : [x + a, y + b, c]);
-        return [at([x0, y0, z0]), at([x1, y1, z1])];
-    };
-    const desk = (name, place, turned) => [
-        [`${name}/top`, [box([0, 0, 0.7], [1.2, 0.6, 0.74], place, turned)]],
-        [`${name}/left`, [box([0, 0, 0], [0.05, 0.6, 0.7], place, turned)]],
-        [`${name}/right`, [box([1.1, 0, 0], [1.15, 0.6, 0.7], place, turned)]],
-    ];
-    return [...desk("desk_1", [-2.8, -2.5], false), ...desk("desk_2", [0, -2.5], false), ...desk("desk_3", [-2.8, -1.2], false)];
-};
+/** Three desks, each of three boxes in a group. */
+const desks = () =>
+    [[-2.8, -2.5], [0, -2.5], [-2.8, -1.2]].flatMap(([x, y], i) => {
+        const box = (name, [x0, y0, z0], [x1, y1, z1]) => [`desk_${i + 1}/${name}`, [[[x + x0, y + y0, z0], [x + x1, y + y1, z1]]]];
+        return [box("top", [0, 0, 0.7], [1.2, 0.6, 0.74]), box("left", [0, 0, 0], [0.05, 0.6, 0.7]), box("right", [1.1, 0, 0], [1.15, 0.6, 0.7])];
+    });
 
 test("one key selects the whole object, one makes it a thing, and one labels its copies", async (t) => {
-    const { file } = room(t, groups());
+    const { file } = room(t, desks());
     const page = await open(await browser(t), (await serve(t, file)).url);
     await lookFromFront(page);
     await page.locator("#stage").focus();
@@ -139,7 +132,6 @@ test("erasing works by itself, and a class is given to what has an instance", as
     const page = await open(await browser(t), (await serve(t, room(t).file)).url);
     await lookFromFront(page);
     await page.evaluate(() => window.annotate.edits.send({ type: "assign", pieces: [2], apply: { layer: "instance", new: true } }));
-    const { pixelOf, draw } = await import("./room.mjs");
     const at = await pixelOf(page, "chair_1");
     await page.locator("#stage").focus();
     await page.keyboard.press("5");
