@@ -4,7 +4,7 @@
 //! surfaces for them, and lets them come to rest: `world` is a rigid-body simulation in which the parts of the scene do not move. Models
 //! are simulated as the convex pieces that `pieces` cuts them into. What cannot be placed is left out with the reason, or refused.
 //!
-//! `solid` and `unrest` offer convex pieces and the simulation to what writes scenes for simulators.
+//! `solid`, `unrest` and `passage` offer convex pieces, the simulation and what is in the way to what writes scenes for simulators.
 //!
 //! What moves in a scene by `[[motion]]` is in `motion`, what opens by its joints in `joints`.
 //!
@@ -19,6 +19,7 @@ mod joints;
 mod materials;
 mod model;
 mod motion;
+mod passage;
 mod pieces;
 mod place;
 mod rest;
@@ -35,8 +36,9 @@ pub use compose::{Composed, Models, compose};
 pub use error::ComposeError;
 pub use group::{Files, Materials, Missing, ObjectGroup, Pose, Turn};
 pub use motion::{MotionGroup, with_motion};
+pub use passage::Passage;
 pub use rest::moved_again;
 pub use solid::{Moments, SHEET_M, Solid, convex_solid, solids};
-pub use unrest::{Way, overlaps, unrest};
+pub use unrest::{Thing, Way, overlaps, unrest};
 pub use words::{ClassWord, Extent, Many, Number};
 pub use world::{FRICTION, SOLVER};

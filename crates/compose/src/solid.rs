@@ -3,6 +3,7 @@
 use crate::pieces::{bounds, cut, farthest, is_convex};
 use crate::shapes::{ours, vector};
 use enfilade_math::{DMat3, DVec3};
+use rapier3d_f64::math::Matrix;
 use rapier3d_f64::parry::mass_properties::MassProperties;
 use rapier3d_f64::parry::shape::SharedShape;
 use rapier3d_f64::parry::transformation::try_convex_hull;
@@ -105,6 +106,12 @@ impl Moments {
             m.inertia + (DMat3::IDENTITY * d.length_squared() - outer) * m.mass_kg
         };
         Some(Self { mass_kg, center, inertia: all.iter().map(moved).fold(DMat3::ZERO, |sum, m| sum + m) })
+    }
+
+    /// The moments in the simulation.
+    pub(crate) fn properties(&self) -> MassProperties {
+        let [x, y, z] = [self.inertia.x_axis, self.inertia.y_axis, self.inertia.z_axis].map(vector);
+        MassProperties::with_inertia_matrix(vector(self.center), self.mass_kg, Matrix::from_cols(x, y, z))
     }
 }
 

@@ -1,6 +1,6 @@
 //! How much things move that are left to themselves.
 
-use crate::solid::Solid;
+use crate::solid::{Moments, Solid};
 use crate::world::World;
 use enfilade_math::DVec3;
 use rapier3d_f64::math::Pose3;
@@ -20,26 +20,35 @@ pub struct Way {
     pub middle_m: DVec3,
 }
 
+/// A thing of convex solids.
+#[derive(Clone, Debug, Default)]
+pub struct Thing {
+    /// Its shape.
+    pub solids: Vec<Solid>,
+    /// How its mass is distributed; as that of wood unless given.
+    pub moments: Option<Moments>,
+}
+
 /// How things move that are simulated for some time, all at once and with nothing asleep, beside what does not move.
-pub fn unrest(fixed: &[Solid], things: &[Vec<Solid>], seconds: f64) -> Vec<Way> {
+pub fn unrest(fixed: &[Solid], things: &[Thing], seconds: f64) -> Vec<Way> {
     let around = |solids: &[Solid]| {
         let corners = solids.iter().flat_map(|solid| &solid.corners);
         corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)))
     };
-    let bounds: Vec<(DVec3, DVec3)> = things.iter().map(|thing| around(thing)).collect();
+    let bounds: Vec<(DVec3, DVec3)> = things.iter().map(|thing| around(&thing.solids)).collect();
     let near = |solid: &&Solid| {
         let (low, high) = around(std::slice::from_ref(*solid));
         bounds.iter().any(|(least, most)| low.cmple(*most + NEAR_M).all() && high.cmpge(*least - NEAR_M).all())
     };
     let mut world = World::beside(fixed.iter().filter(near).filter_map(Solid::shape));
     for thing in things {
-        let parts = thing.iter().filter_map(|solid| Some((Pose3::IDENTITY, solid.shape()?)));
-        world.add(SharedShape::compound(parts.collect()), Pose3::IDENTITY);
+        let parts = thing.solids.iter().filter_map(|solid| Some((Pose3::IDENTITY, solid.shape()?)));
+        world.add_weighed(SharedShape::compound(parts.collect()), Pose3::IDENTITY, thing.moments);
     }
     world.run(seconds);
-    let way = |(number, thing): (usize, &Vec<Solid>)| {
+    let way = |(number, thing): (usize, &Thing)| {
         let after = world.placement(number);
-        let corners = || thing.iter().flat_map(|solid| &solid.corners);
+        let corners = || thing.solids.iter().flat_map(|solid| &solid.corners);
         let ways = || corners().map(|corner| after.transform_point3(*corner) - *corner);
         let middle_m = ways().sum::<DVec3>() / corners().count().max(1) as f64;
         Way { farthest_m: ways().map(DVec3::length).fold(0.0, f64::max), middle_m }
@@ -89,7 +98,19 @@ mod tests {
         let floor = block(DVec3::new(-2.0, -2.0, -0.1), DVec3::new(4.0, 4.0, 0.1));
         let stands = block(DVec3::ZERO, DVec3::splat(0.2));
         let hangs = block(DVec3::new(1.0, 0.0, 0.5), DVec3::splat(0.2));
-        let found = unrest(&[floor], &[vec![stands], vec![hangs]], 0.5);
+        let things = [stands, hangs].map(|solid| Thing { solids: vec![solid], moments: None });
+        let found = unrest(&[floor], &things, 0.5);
         assert!(found[0].farthest_m < 3e-4 && (found[1].middle_m.z + 0.5).abs() < 0.05, "{found:?}");
+    }
+
+    #[test]
+    fn a_thing_falls_by_its_own_mass_not_by_its_shape() {
+        // A block a third of which is over the edge of a table, with nearly all of its mass there.
+        let table = block(DVec3::new(-1.0, -0.5, -0.1), DVec3::new(1.0, 1.0, 0.1));
+        let [lies, hangs] = [-0.2, 0.0].map(|x| block(DVec3::new(x, -0.05, 0.0), DVec3::new(if x < 0.0 { 0.2 } else { 0.1 }, 0.1, 0.05)));
+        let moments = Moments::joined(&[lies.moments(0.05), hangs.moments(1.0)]);
+        let thing = |moments| Thing { solids: vec![lies.clone(), hangs.clone()], moments };
+        let moves = |moments| unrest(&[table.clone()], &[thing(moments)], 0.3)[0].farthest_m;
+        assert!(moves(None) < 3e-4 && moves(moments) > 0.02, "{} and {}", moves(None), moves(moments));
     }
 }

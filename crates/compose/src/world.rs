@@ -4,6 +4,7 @@
 //! or wood.
 
 use crate::shapes::{ours, placement, point, vector};
+use crate::solid::Moments;
 use enfilade_math::{DAffine3, DVec3, Vec3};
 use enfilade_scene::{PartId, Scene};
 use rapier3d_f64::dynamics::{FrictionModel, RigidBodyBuilder, RigidBodyHandle};
@@ -142,10 +143,20 @@ impl World {
             })
     }
 
-    /// Adds an object; gives its number.
+    /// Adds an object of wood; gives its number.
     pub fn add(&mut self, shape: SharedShape, pose: Pose3) -> usize {
+        self.add_weighed(shape, pose, None)
+    }
+
+    /// Adds an object with this mass, distributed as the moments say, else one of wood; gives its number.
+    pub fn add_weighed(&mut self, shape: SharedShape, pose: Pose3, moments: Option<Moments>) -> usize {
         let body = RigidBodyBuilder::dynamic().pose(pose).linear_damping(0.1).angular_damping(2.0).ccd_enabled(true);
-        let (handle, _) = self.physics.insert(body, ColliderBuilder::new(shape.clone()).friction(FRICTION).density(DENSITY));
+        let collider = ColliderBuilder::new(shape.clone()).friction(FRICTION);
+        let collider = match moments {
+            Some(moments) => collider.mass_properties(moments.properties()),
+            None => collider.density(DENSITY),
+        };
+        let (handle, _) = self.physics.insert(body, collider);
         self.bodies.push(Body { handle, shape });
         self.bodies.len() - 1
     }

@@ -1,12 +1,14 @@
 //! Scenes for simulators: what stands in a scene as rigid bodies with convex pieces, masses, friction and joints.
 //!
 //! [`simulated`] makes the bodies from a scene and its labels; [`mjcf`], [`urdf`] and [`usd`] write them. `bodies` says which parts are one body,
-//! `pieces` cuts parts into convex solids, `matter` has the densities, and `rest` finds what would not stay where it is.
+//! `pieces` cuts parts into convex solids, `matter` has the densities, `rest` finds what would not stay where it is, and `limits` how far
+//! joints go.
 //!
 //! Positions are metres in the world of the scene, z up, at rest. Every body has the axes of the world there.
 
 mod bodies;
 mod files;
+mod limits;
 mod looks;
 mod matter;
 mod mjcf;
@@ -39,7 +41,11 @@ pub fn simulated(scene: &Scene, labels: &Labels) -> Result<Model, PhysicsError> 
     refuse_nothing(scene, &mut groups, &parts)?;
     rest::settle(&mut groups, &mut parts, &mut notes);
     bodies::in_order(&mut groups);
-    let excluded = rest::touching(&groups, &parts);
+    let touching = rest::touching(&groups, &parts);
+    limits::shorten(&mut groups, &parts, &touching, &mut notes);
+    // What is free would fall through what it lies in or on.
+    let free = |number: usize| groups[number].joint == bodies::Hold::Free;
+    let excluded = touching.into_iter().filter(|[a, b]| !free(*a) && !free(*b)).collect();
     let (looks, visuals) = looks::of(scene, &mut notes);
     let bodies = groups.iter().map(|group| body(group, &parts, &visuals)).collect();
     Ok(Model { bodies, excluded, looks, notes })

@@ -6,7 +6,7 @@
 
 use crate::bodies::{Group, Hold};
 use crate::model::Piece;
-use enfilade_compose::{Solid, Way, overlaps, unrest};
+use enfilade_compose::{Moments, Solid, Thing, Way, overlaps, unrest};
 use enfilade_math::DVec3;
 use std::collections::BTreeSet;
 
@@ -122,15 +122,17 @@ fn root(groups: &[Group], mut number: usize) -> usize {
 /// How the free groups move within some seconds.
 fn ways(groups: &[Group], parts: &[Vec<Piece>], seconds: f64) -> Vec<(usize, Way)> {
     let free: Vec<usize> = (0..groups.len()).filter(|number| groups[*number].joint == Hold::Free).collect();
-    let mut things: Vec<Vec<Solid>> = vec![Vec::new(); free.len()];
+    let mut things: Vec<Vec<&Piece>> = vec![Vec::new(); free.len()];
     let mut fixed = Vec::new();
     for (number, group) in groups.iter().enumerate() {
         match free.binary_search(&root(groups, number)) {
-            Ok(thing) => things[thing].extend(solids(group, parts)),
+            Ok(thing) => things[thing].extend(pieces(group, parts)),
             Err(_) => fixed.extend(solids(group, parts)),
         }
     }
-    let ways = unrest(&fixed, &things, seconds);
+    let moments = |pieces: &[&Piece]| Moments::joined(&pieces.iter().map(|piece| piece.solid.moments(piece.mass_kg)).collect::<Vec<_>>());
+    let thing = |pieces: Vec<&Piece>| Thing { moments: moments(&pieces), solids: pieces.iter().map(|piece| piece.solid.clone()).collect() };
+    let ways = unrest(&fixed, &things.into_iter().map(thing).collect::<Vec<_>>(), seconds);
     free.into_iter().zip(ways).collect()
 }
 
@@ -147,11 +149,11 @@ fn pieces<'p>(group: &'p Group, parts: &'p [Vec<Piece>]) -> impl Iterator<Item =
     group.parts.iter().flat_map(move |part| &parts[*part as usize])
 }
 
-fn solids(group: &Group, parts: &[Vec<Piece>]) -> Vec<Solid> {
+pub(crate) fn solids(group: &Group, parts: &[Vec<Piece>]) -> Vec<Solid> {
     pieces(group, parts).map(|piece| piece.solid.clone()).collect()
 }
 
-fn told(names: &BTreeSet<String>) -> String {
+pub(crate) fn told(names: &BTreeSet<String>) -> String {
     let first: Vec<&str> = names.iter().take(TOLD).map(String::as_str).collect();
     let more = if names.len() > TOLD { ", …" } else { "" };
     format!("{}{more}", first.join(", "))

@@ -91,6 +91,31 @@ fn room() -> Room {
 }
 
 #[test]
+fn a_joint_ends_before_what_is_in_the_way_and_what_lies_in_a_drawer_goes_along() {
+    let (wide, open) = (Vec3::new(0.1, 0.1, 1.0), [-1.5, 0.0]);
+    // The post's near side is 0.3 m before the closed door, whose edge is 0.6 m from the hinge. The pencil lies on the drawer.
+    let Room { scene, labels } = room().with("post", "oak", wide, DVec3::new(2.0, 0.6, 0.0), 38, 6).with(
+        "pencil",
+        "oak",
+        Vec3::new(0.2, 0.01, 0.01),
+        DVec3::new(2.2, 1.005, 0.9001),
+        40,
+        7,
+    );
+    let model = simulated(&scene, &labels).unwrap();
+    let body = |name: &str| model.bodies.iter().find(|body| body.name == name).unwrap();
+    // The leaf's plane through the hinge, 0.02 m thick to one side, meets the corner (2.1, 0.7) at atan2(0.3, 0.1).
+    let end = -(0.3f64).atan2(0.1);
+    let limits = body("cabinet_door").joint.limits.unwrap();
+    assert!((limits[0] - end).abs() < 1e-3 && limits[1] == open[1], "{limits:?} of {end}");
+    let out = body("cabinet_drawer").joint.limits.unwrap();
+    assert!(out[0] == 0.0 && (out[1] - 0.3).abs() < 1e-3, "{out:?}");
+    let index = |name: &str| model.bodies.iter().position(|body| body.name == name).unwrap();
+    assert!(!model.excluded.iter().any(|pair| pair.contains(&index("pencil"))), "{:?}", model.excluded);
+    assert!(model.notes.iter().any(|note| note.contains("cabinet_door (post)")), "{:?}", model.notes);
+}
+
+#[test]
 fn bodies_have_the_masses_of_their_volumes_and_the_joints_of_the_scene() {
     let Room { scene, labels } = room();
     let model = simulated(&scene, &labels).unwrap();

@@ -298,13 +298,22 @@ describe("view", () => {
         await addressSays("layer", "depth_meters");
     });
 
+    /** Moves the cursor over the stage, below its middle, until it is over an instance. */
+    async function hoverAnInstance() {
+        const box = await page.locator("#stage").boundingBox();
+        for (let i = 0; i < 60; i++) {
+            await page.mouse.move(box.x + box.width * (0.3 + (i % 10) * 0.05), box.y + box.height * (0.5 + Math.floor(i / 10) * 0.07));
+            await painted();
+            if (await page.evaluate(() => window.view.session.hoveredInstance > 0)) return;
+        }
+        assert.fail("no instance under the cursor");
+    }
+
     test("the colours that are read under the cursor are those of the picture", async () => {
         await open("scene=home&camera=cam_00&frame=0&layer=color");
         await page.waitForFunction(() => window.view.session.idsOf(0)?.step === 1);
         const before = await brightness({ x: 0.2, y: 0.2 });
-        const box = await page.locator("#stage").boundingBox();
-        await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.75);
-        await page.waitForFunction(() => window.view.session.hoveredInstance > 0);
+        await hoverAnInstance();
         await page.waitForTimeout(100);
         assert.ok(Math.abs((await brightness({ x: 0.2, y: 0.2 })) - before) < 1);
     });

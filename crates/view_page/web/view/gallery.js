@@ -164,7 +164,7 @@ export class Gallery {
         const mark = this.marks.of(row);
         const told = by ? `${by.says} ${value === null ? "not known" : by.show(value)}` : "";
         const element = el("div", { class: `place ${isRejected(row) ? "rejected" : ""}`, role: "option", id: `place-${i}`, title: [name, mark, told, ...why].filter(Boolean).join("\n"),
-            "aria-label": [name, mark, told, ...why].filter(Boolean).join(", "), "aria-setsize": this.shown.length, "aria-posinset": i + 1, "data-frame": `${row.scene}/${row.camera}/${row.frame}` },
+            "aria-setsize": this.shown.length, "aria-posinset": i + 1, "data-frame": `${row.scene}/${row.camera}/${row.frame}` },
             url ? el("img", { src: url, alt: "", draggable: false }) : el("div", { class: "nothing quiet" }, "no picture"),
             el("div", { class: "name" }, mark ? el("b", { class: mark === "dropped" ? "bad" : "good" }, mark, " ") : null, name), el("div", { class: "told number" }, by ? (value === null ? "–" : by.show(value)) : why.length ? el("span", { class: "bad" }, isRejected(row) ? "rejected" : "see why") : ""));
         element.addEventListener("click", () => this.open(i));
