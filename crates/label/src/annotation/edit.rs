@@ -59,6 +59,13 @@ impl Edit {
     }
 }
 
+impl Edit {
+    /// True for edits that only logs of [`FORMAT_OF_PEOPLE`](super::FORMAT_OF_PEOPLE) have.
+    pub fn is_of_people(&self) -> bool {
+        matches!(self, Self::UndoOf { .. } | Self::RedoOf { .. })
+    }
+}
+
 /// The state before an edit, against which it is checked.
 pub struct Before<'a> {
     /// Number of pieces.

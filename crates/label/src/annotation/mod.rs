@@ -12,7 +12,7 @@ mod steps;
 
 pub use edit::{Before, Edit, numbers, runs};
 pub use labelled::Annotation;
-pub use log_lines::{Entry, FORMAT, Header, LogProblem, parse};
+pub use log_lines::{Entry, FORMAT, FORMAT_OF_PEOPLE, Header, LogProblem, parse};
 pub use steps::{Step, StepProblem, Steps};
 
 use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, scene_hash};

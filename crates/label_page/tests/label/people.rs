@@ -32,6 +32,8 @@ async fn undo_is_a_persons_own_and_is_kept_by_the_log() {
     assert_eq!((change["of"].as_str(), page.labels().await[1]), (Some("Ben"), (-1, -1)));
     let history = page.get("history").await;
     assert_eq!((&history["done"][0]["who"], &history["undone"][0]["who"]), (&json!("Ben"), &json!("Ben")));
+    let log = std::fs::read_to_string(folder.path().join("room.scene.labels/annotation_log.jsonl")).unwrap();
+    assert!(log.starts_with("{\"format\":\"enfilade annotation log 2\",") && log.contains("{\"type\":\"undo_of\",\"revision\":1}"), "{log}");
     let labels = page.labels().await;
     drop(page);
     let page = Page::open(&path);

@@ -48,6 +48,7 @@ export class Page {
         this.gallery = new Gallery(session, () => this.panel());
         this.findLayer = layerSearch(session);
         this.telling = 0;
+        this.isReady = false;
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
         /** @type {import("./catalogue.js").FrameFacts | null} */
@@ -75,6 +76,7 @@ export class Page {
 
     /** Says that the first picture is shown. */
     ready() {
+        this.isReady = true;
         document.body.dataset.ready = "true";
         this.gallery.isShown ? this.gallery.focus() : byId("stage").focus({ preventScroll: true });
     }
@@ -120,8 +122,8 @@ export class Page {
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
-        // What was measured is of one frame, unless an address says both.
-        if (has("frame", "camera", "scene") && !has("ruler") && state.ruler) this.store.set({ ruler: "" }, { step: false });
+        // What was measured is of one frame, unless an address says both; the frame that a page begins with is found by itself.
+        if (has("frame", "camera", "scene") && !has("ruler") && state.ruler && this.isReady) this.store.set({ ruler: "" }, { step: false });
         if (has("ruler")) this.session.refresh();
         if (has("frame", "track")) this.#followTrack();
         if (has("frame", "layer", "mode", "camera")) this.#tell();
