@@ -19,9 +19,8 @@ test("strokes label a room, and the files say so", async (t) => {
         await draw(page, at, at);
         assert.deepEqual(await labelOf(page, name), [id, -1], name);
     }
-    // Instances: chairs get a number each by unique ids, with a filter that lets classified faces through.
+    // Instances: chairs get a number each by unique ids.
     await page.keyboard.press("t");
-    await page.keyboard.press("Alt+6");
     await page.keyboard.press("u");
     const [a, b] = [await pixelOf(page, "chair_1"), await pixelOf(page, "chair_2")];
     await page.keyboard.press("l");
