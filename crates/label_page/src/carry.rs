@@ -7,6 +7,7 @@ use super::part_shapes::{PartShape, SHAPES};
 use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, write_bytes};
 use enfilade_label::annotation::{Annotation, AnnotationError, parse};
 use enfilade_scene::PartLabel;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -118,6 +119,35 @@ impl Carried {
         let path = folder.join(CARRIED);
         write_bytes(&path, self.list.as_str()).map(|()| path)
     }
+}
+
+/// A row of the list: an earlier label, or a part that got none.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CarriedRow {
+    /// The part's name in the earlier version; empty for a part that got no label.
+    pub earlier_name: String,
+    /// The part that got the label; empty where none did.
+    pub object_name: String,
+    /// Class; empty for a part that got no label.
+    pub semantic: String,
+    /// Instance; empty for a part that got no label.
+    pub instance: String,
+    /// How the label was carried over, or why not.
+    pub carried: String,
+}
+
+/// The list in a folder of labels; empty where there is none.
+///
+/// # Errors
+/// When the file cannot be read, or is no such list.
+pub fn rows(folder: &Path) -> Result<Vec<CarriedRow>, String> {
+    let path = folder.join(CARRIED);
+    let bytes = match std::fs::read(&path) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        bytes => bytes.map_err(|e| format!("cannot read {}: {e}", path.display()))?,
+    };
+    let rows: Result<_, csv::Error> = csv::Reader::from_reader(bytes.as_slice()).deserialize().collect();
+    rows.map_err(|e| format!("{}: {e}; remove the file, which nothing needs", path.display()))
 }
 
 /// Moves the log of an earlier version out of the way, so that one for this version can begin.

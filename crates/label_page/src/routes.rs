@@ -5,6 +5,7 @@ use super::answer::{Answer, Shared};
 use super::app::App;
 use super::author::Author;
 use super::camera::CameraRequest;
+use super::carry;
 use super::change::material_name;
 use super::clock;
 use super::face_colors::FaceColors;
@@ -53,6 +54,7 @@ pub fn routes(app: Arc<App>) -> Router {
         .route("/api/annotate/events", get(events))
         .route("/api/annotate/progress", get(progress))
         .route("/api/annotate/history", get(history))
+        .route("/api/annotate/carried", get(carried))
         .route("/api/annotate/reviews", get(reviews))
         .route("/api/annotate/review", post(review))
         .route("/api/annotate/activity", post(activity))
@@ -207,6 +209,14 @@ async fn review(State(app): Shared, body: Bytes) -> Answer {
     beside(move || {
         app.review(&Author { client, who, id: None }, &pieces, state, &note)?;
         Ok(Json(reviewed(&app)).into_response())
+    })
+    .await
+}
+
+async fn carried(State(app): Shared) -> Answer {
+    beside(move || {
+        let rows = carry::rows(app.labels_folder()).map_err(|e| ApiProblem::failed(e, "labels are not affected"))?;
+        Ok(Json(rows).into_response())
     })
     .await
 }

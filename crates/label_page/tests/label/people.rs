@@ -33,7 +33,10 @@ async fn undo_is_a_persons_own_and_is_kept_by_the_log() {
     let history = page.get("history").await;
     assert_eq!((&history["done"][0]["who"], &history["undone"][0]["who"]), (&json!("Ben"), &json!("Ben")));
     let log = std::fs::read_to_string(folder.path().join("room.scene.labels/annotation_log.jsonl")).unwrap();
-    assert!(log.starts_with("{\"format\":\"enfilade annotation log 2\",") && log.contains("{\"type\":\"undo_of\",\"revision\":1}"), "{log}");
+    assert!(
+        log.starts_with("{\"format\":\"enfilade annotation log 2\",") && log.contains("{\"type\":\"undo_of\",\"revision\":1}"),
+        "{log}"
+    );
     let labels = page.labels().await;
     drop(page);
     let page = Page::open(&path);
@@ -128,6 +131,9 @@ async fn labels_of_an_earlier_version_are_carried_over_by_name_and_shape() {
     ] {
         assert!(list.contains(row), "{row}: {list}");
     }
+    let rows = page.get("carried").await;
+    assert_eq!(rows.as_array().unwrap().len(), list.lines().count() - 1);
+    assert_eq!((&rows[1]["object_name"], &rows[1]["carried"]), (&json!("near"), &json!("by name and shape")));
     assert!(labels.join("annotation_log_1.jsonl").is_file());
     let change = page.act(json!({ "type": "undo" })).await;
     assert_eq!(change["description"], "Undone: Carried over: the labels of 2 parts");

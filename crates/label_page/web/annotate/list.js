@@ -42,7 +42,8 @@ export class PieceList {
     show(pieces) {
         const active = this.pieces[this.active];
         const at = pieces.indexOf(active);
-        this.isPast = at < 0 && active !== undefined && pieces.length > 0;
+        // A list that is shown again while the row that followed is still there changes nothing about that.
+        if (at < 0) this.isPast = active !== undefined && pieces.length > 0;
         this.pieces = pieces;
         this.active = at < 0 ? Math.min(this.active, Math.max(0, pieces.length - 1)) : at;
         this.draw();

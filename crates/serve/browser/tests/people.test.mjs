@@ -1,7 +1,7 @@
 // Several tabs and several people at one scene, and things that a scene has several times.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { browser, draw, labelOf, lookFromFront, open, pixelOf, room, saved, select, selected, serve, told } from "./room.mjs";
@@ -140,4 +140,24 @@ test("erasing works by itself, and a class is given to what has an instance", as
     await page.keyboard.press("e");
     await draw(page, at, at);
     assert.deepEqual(await labelOf(page, "chair_1"), [-1, 1]);
+});
+
+test("labels of an earlier version come along, and what found no part is listed", async (t) => {
+    const { folder, file, labels } = room(t, [["stool", [[[2, 2, 0], [2.3, 2.3, 0.4]]]]]);
+    const first = await serve(t, file);
+    const before = await open(await browser(t), first.url);
+    for (const [name, key] of [["chair_1", "5"], ["table_1", "7"], ["stool", "5"]]) await give(before, name, key);
+    await before.close();
+    await first.end();
+    // Exported again: the stool is gone, and the table has another name.
+    room(t, [], folder);
+    writeFileSync(file, readFileSync(file, "utf8").replace("o table_1", "o desk"));
+    const page = await open(await browser(t), (await serve(t, file, 0, "annotate", ["--carry", labels])).url);
+    assert.deepEqual([await labelOf(page, "chair_1"), await labelOf(page, "desk")], [[5, -1], [7, -1]]);
+    await page.getByRole("tab", { name: "Progress" }).click();
+    const list = page.locator("#panel-progress .carried");
+    await list.locator("dt", { hasText: "table_1 → desk" }).waitFor();
+    assert.match(await list.innerText(), /stool\s+chair, not: no part has its name or shape/u);
+    await page.getByRole("tab", { name: "History" }).click();
+    await page.locator("#panel-history .edit", { hasText: "Carried over: the labels of 2 parts" }).waitFor();
 });
