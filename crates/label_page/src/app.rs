@@ -3,9 +3,10 @@
 use super::action::{Action, Look, Refusal};
 use super::author::Author;
 use super::camera::CameraRequest;
-use super::carry::{CARRIED, Carried, CarryError, set_aside};
+use super::carry::{CARRIED, Carried, set_aside};
 use super::change::Change;
 use super::clock;
+use super::earlier::CarryError;
 use super::events::Events;
 use super::log::LogError;
 use super::options::AnnotateOptions;

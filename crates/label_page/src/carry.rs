@@ -3,9 +3,9 @@
 //! A part keeps its label if one of the same name is here, or, for those whose name is gone, one of the same shape that is the only one, or
 //! that is at the same place. What is carried over and what is not is listed in a table.
 
-use super::part_shapes::{PartShape, SHAPES};
-use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, write_bytes};
-use enfilade_label::annotation::{Annotation, AnnotationError, parse};
+use super::earlier::{CarryError, Old, earlier};
+use super::part_shapes::PartShape;
+use enfilade_dataset::{ANNOTATION_LOG, DatasetError, write_bytes};
 use enfilade_scene::PartLabel;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -15,38 +15,6 @@ use std::path::{Path, PathBuf};
 pub const CARRIED: &str = "labels_carried.csv";
 /// A part whose name is gone is at the same place if its mean has moved by at most this, metres.
 const SAME_PLACE_M: f64 = 0.01;
-
-/// Why labels cannot be carried over.
-#[derive(Debug, thiserror::Error)]
-pub enum CarryError {
-    /// The folder has no labels that can be carried over.
-    #[error("{}: {problem}; --carry takes the folder of labels of an earlier version of the scene", folder.display())]
-    Folder {
-        /// The folder.
-        folder: PathBuf,
-        /// What was found there.
-        problem: String,
-    },
-    /// The scene has edits already.
-    #[error("{} has edits already, and --carry begins an annotation; leave it out, or name another folder with --labels", .0.display())]
-    Begun(PathBuf),
-    /// A file cannot be read or written.
-    #[error(transparent)]
-    File(#[from] DatasetError),
-    /// The log cannot be read.
-    #[error(transparent)]
-    Log(#[from] AnnotationError),
-}
-
-/// A part of the earlier version that had a label.
-struct Old {
-    name: String,
-    /// Shape and place, where they are known.
-    known: Option<PartShape>,
-    label: PartLabel,
-    /// True where its pieces have several labels.
-    is_mixed: bool,
-}
 
 /// How a part got its label, or why not.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -161,64 +129,6 @@ pub fn set_aside(folder: &Path) -> Result<(), DatasetError> {
         Some(to) => std::fs::rename(&log, to).map_err(|source| DatasetError::Io { action: "move", path: log, source }),
         None => Ok(()),
     }
-}
-
-/// The labelled parts of the earlier version: by its log and the table of shapes, else by the tables of labels.
-fn earlier(from: &Path) -> Result<Vec<Old>, CarryError> {
-    let wrong = |problem: String| CarryError::Folder { folder: from.to_path_buf(), problem };
-    let shapes = PartShape::read(from).map_err(wrong)?;
-    let log = from.join(ANNOTATION_LOG);
-    let (names, labels, pieces) = match &shapes {
-        Some(shapes) if log.is_file() => {
-            let bytes = std::fs::read(&log).map_err(|source| DatasetError::Io { action: "read", path: log.clone(), source })?;
-            let at = |problem| AnnotationError::at(&log, problem);
-            let (header, entries) = parse(&bytes).map_err(at)?.ok_or_else(|| wrong("its log is empty".into()))?;
-            if header.parts != shapes.len() {
-                return Err(wrong(format!("its log is about {} parts, and {SHAPES} has {}", header.parts, shapes.len())));
-            }
-            let faces: Vec<usize> = shapes.iter().map(|part| part.shape.numbers().0).collect();
-            let found = Annotation::of_log(&header, entries, &faces).map_err(at)?;
-            (
-                shapes.iter().map(|part| part.name.clone()).collect(),
-                found.labels.parts,
-                found.pieces.into_iter().map(|(_, part)| part).collect(),
-            )
-        }
-        _ => of_tables(from, &wrong)?,
-    };
-    Ok(labelled(&names, &labels, &pieces, shapes.as_deref()))
-}
-
-/// Names of parts, labels of parts and pieces, and the part of each piece, by the tables of labels.
-fn of_tables(from: &Path, wrong: &dyn Fn(String) -> CarryError) -> Result<(Vec<String>, Vec<PartLabel>, Vec<u32>), CarryError> {
-    let files = MeshFiles::new(from);
-    let labels = match files.read_labels() {
-        Err(error) if error.is_not_found() => return Err(wrong("it has no labels".into())),
-        labels => labels?.parts,
-    };
-    let pieces = files.read_pieces()?;
-    let mut names = files.read_object_names()?;
-    if names.len() != labels.len() || pieces.len() > names.len() {
-        return Err(wrong(format!("its tables label {} objects of {}", labels.len(), names.len())));
-    }
-    names.truncate(names.len() - pieces.len());
-    Ok((names, labels, pieces))
-}
-
-/// The parts that have a label, with that of their pieces where all agree.
-fn labelled(names: &[String], labels: &[PartLabel], pieces: &[u32], shapes: Option<&[PartShape]>) -> Vec<Old> {
-    let mut all: HashMap<usize, Vec<PartLabel>> = HashMap::new();
-    for (number, label) in labels.iter().enumerate() {
-        let part = number.checked_sub(names.len()).map_or(number, |beyond| pieces.get(beyond).map_or(number, |&part| part as usize));
-        all.entry(part).or_default().push(*label);
-    }
-    let old = |(number, name): (usize, &String)| {
-        let labels = all.get(&number)?;
-        let label = *labels.iter().find(|label| **label != PartLabel::NONE)?;
-        let known = shapes.and_then(|shapes| shapes.get(number)).filter(|shape| shape.name == *name).cloned();
-        Some(Old { name: name.clone(), known, label, is_mixed: labels.iter().any(|other| *other != label) })
-    };
-    names.iter().enumerate().filter_map(old).collect()
 }
 
 /// The part for each earlier part.

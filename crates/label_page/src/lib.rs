@@ -18,6 +18,7 @@ mod camera;
 mod carry;
 mod change;
 mod clock;
+mod earlier;
 mod events;
 mod face_colors;
 mod json_lines;

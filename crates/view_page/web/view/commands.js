@@ -27,7 +27,7 @@ export function commandsOf(page) {
     const mode = (/** @type {import("./state.js").Mode} */ name) => store.set({ mode: name });
     const far = (/** @type {number} */ steps) => (/** @type {KeyboardEvent} */ event) => (inGallery() ? page.gallery.key(event) : session.step(steps));
     const arrows = (/** @type {string} */ before) => ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"].map((key) => before + key);
-    const read = (/** @type {number} */ step) => (/** @type {KeyboardEvent} */ { key }) => page.readPixel(step * (Number(key === "ArrowRight") - Number(key === "ArrowLeft")), step * (Number(key === "ArrowDown") - Number(key === "ArrowUp")));
+    const read = (/** @type {number} */ step) => (/** @type {KeyboardEvent} */ { key }) => page.tools.readPixel(step * (Number(key === "ArrowRight") - Number(key === "ArrowLeft")), step * (Number(key === "ArrowDown") - Number(key === "ArrowUp")));
     return [
         { title: "Frames", keys: [
             { keys: ["ArrowLeft"], shown: "←", says: "frame before; hold to run", does: travelling(-1) },
@@ -78,9 +78,9 @@ export function commandsOf(page) {
             { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
             { keys: ["Shift+B"], says: "names on boxes", does: () => store.set({ names: !store.state.names }) },
             { keys: ["P"], says: "points that are followed", does: () => store.set({ tracks: !store.state.tracks }) },
-            { keys: ["Shift+P"], says: "the next of these points alone", does: () => page.nextTrack() },
+            { keys: ["Shift+P"], says: "the next of these points alone", does: () => page.tools.nextTrack() },
             { keys: ["L"], says: "logarithmic colours", does: logarithm },
-            { keys: ["J"], says: "measure from this pixel; again: to this one", does: () => page.measure() },
+            { keys: ["J"], says: "measure from this pixel; again: to this one", does: () => page.tools.measure() },
             { keys: arrows("Ctrl+"), shown: "Ctrl+arrows", says: "read pixel by pixel", does: read(1) },
             { keys: arrows("Ctrl+Shift+"), shown: "Ctrl+Shift+arrows", says: "ten pixels at a time", does: read(10) },
             { keys: ["Escape"], shown: "Esc", says: "let go of the instance, point, distance", does: () => store.set({ instance: 0, class: 0, track: 0, ruler: "" }) },

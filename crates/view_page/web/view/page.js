@@ -3,7 +3,6 @@
 import { byId, el } from "../shared/dom.js";
 import { oneTabStop } from "../shared/one_tab_stop.js";
 import { resizable } from "../shared/resizable.js";
-import { say } from "../shared/say.js";
 import { takeChosenTheme, toggleTheme } from "../shared/theme.js";
 import { toast, toastError } from "../shared/toast.js";
 import { fileUrl, getFrame } from "./catalogue.js";
@@ -19,21 +18,18 @@ import { showMessage } from "./message.js";
 import { objectsPanel } from "./objects.js";
 import { PairsPanel } from "./pairs.js";
 import { showReadout } from "./readout.js";
-import { rulerWords, withEnd } from "./ruler.js";
-import { faultText, framePanel, lossesOf, viewsPanel } from "./records.js";
+import { framePanel, lossesOf, viewsPanel } from "./records.js";
+import { rulerWords } from "./ruler.js";
 import { savePicture } from "./save.js";
 import { TWO } from "./session.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
-import { factsOf, nextTrack } from "./tracks.js";
+import { Tools } from "./tools.js";
 import { Travel } from "./travel.js";
 import { Tree } from "./tree.js";
 import { Watch } from "./watch.js";
 
 /** @typedef {import("./state.js").State} State */
-
-/** What is shown is told when it has not changed for this long, milliseconds. */
-const TELL_MS = 350;
 
 export class Page {
     /** @param {import("./session.js").Session} session @param {import("./state.js").Store} store */
@@ -47,7 +43,7 @@ export class Page {
         this.pairs = new PairsPanel(session, () => this.panel());
         this.gallery = new Gallery(session, () => this.panel());
         this.findLayer = layerSearch(session);
-        this.telling = 0;
+        this.tools = new Tools(session, this.stage);
         this.isReady = false;
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
@@ -125,62 +121,14 @@ export class Page {
         // What was measured is of one frame, unless an address says both; the frame that a page begins with is found by itself.
         if (has("frame", "camera", "scene") && !has("ruler") && state.ruler && this.isReady) this.store.set({ ruler: "" }, { step: false });
         if (has("ruler")) this.session.refresh();
-        if (has("frame", "track")) this.#followTrack();
-        if (has("frame", "layer", "mode", "camera")) this.#tell();
+        if (has("frame", "track")) this.tools.followTrack();
+        if (has("frame", "layer", "mode", "camera")) this.tools.tell();
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
         if (has("view")) this.space?.look();
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
-    }
-
-    /** Keeps the point that is followed alone in the middle of a picture that is enlarged. */
-    #followTrack() {
-        const { track, frame, zoom } = this.store.state;
-        const followed = track > 0 && zoom > 0 && this.session.camera ? this.session.tracks.of(this.session.camera) : null;
-        const place = followed && factsOf(followed, track, frame).place;
-        if (place) this.store.set({ x: place[0], y: place[1] }, { step: false });
-    }
-
-    /** Follows the next point of the frame alone. */
-    nextTrack() {
-        const { camera, tracks } = this.session;
-        const followed = camera ? tracks.of(camera) : null;
-        const { frame, track } = this.store.state;
-        this.store.set({ tracks: true, track: followed ? nextTrack(followed, frame, track) : 0 });
-    }
-
-    /** Puts an end of the ruler at the pixel under the cursor. */
-    measure() {
-        const { pixel } = this.stage;
-        if (!pixel || pixel.side > 0) return toast("Point at the picture to measure.", "With the mouse, or Ctrl and the arrows.");
-        this.store.set({ ruler: withEnd(this.store.state.ruler, pixel), tab: "display" });
-        this.session.refresh();
-        this.#tellSoon(() => (this.store.state.ruler ? rulerWords(this.session) : "No distance is measured."));
-    }
-
-    /** Moves the pixel whose values are read, and tells them. @param {number} dx @param {number} dy */
-    readPixel(dx, dy) {
-        this.stage.movePixel(dx, dy);
-        this.#tellSoon(() => [...byId("readout").children].map((line) => line.textContent?.replace(/\s+/gu, " ").trim()).filter(Boolean).join("; "));
-    }
-
-    /** Tells screen readers which frame and layer is shown. */
-    #tell() {
-        this.#tellSoon(() => {
-            const { mode, frame, layer } = this.store.state;
-            const frames = this.session.frames();
-            if (mode === "gallery" || !frames.length) return "";
-            const faults = this.session.camera?.frames.find((one) => one.frame === frame)?.faults ?? [];
-            return [`Frame ${frame}, ${frames.indexOf(frame) + 1} of ${frames.length}`, mode === "space" ? "3D" : this.session.looks.title(layer), ...faults.map(faultText)].join(", ");
-        });
-    }
-
-    /** Tells something when nothing new has come for a while. @param {() => string} words */
-    #tellSoon(words) {
-        clearTimeout(this.telling);
-        this.telling = setTimeout(() => say(words()), TELL_MS);
     }
 
     /** Another camera gives the other picture. */
