@@ -67,11 +67,9 @@ impl Dataset {
     /// When the folder cannot be read, or has folders that are no dataset.
     pub fn awaited(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let root = root.as_ref();
-        let is_folder = |name: &String| !name.starts_with('.') && root.join(name).is_dir();
-        match crate::read::sorted_names(root)?.iter().find(|name| is_folder(name)) {
-            None => Ok(Self { layout: Layout::new(root), camera_table: None }),
-            Some(_) => Self::open(root),
-        }
+        let mut entries = std::fs::read_dir(root).map_err(DatasetError::at("read the folder", root))?.flatten();
+        let is_folder = |entry: std::fs::DirEntry| !entry.file_name().to_string_lossy().starts_with('.') && entry.path().is_dir();
+        if entries.any(is_folder) { Self::open(root) } else { Ok(Self { layout: Layout::new(root), camera_table: None }) }
     }
 
     /// The dataset's folder.

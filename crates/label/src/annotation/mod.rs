@@ -4,13 +4,15 @@
 //! that doing it again gives the same labels. [`Annotation::read`] does them again. What is labelled is called a piece: a part of the scene,
 //! or a piece of a part that was split.
 
+mod before;
 mod edit;
 mod labelled;
 mod log_lines;
 mod replay;
 mod steps;
 
-pub use edit::{Before, Edit, numbers, runs};
+pub use before::Before;
+pub use edit::{Edit, numbers, runs};
 pub use labelled::Annotation;
 pub use log_lines::{Entry, FORMAT, FORMAT_OF_PEOPLE, Header, LogProblem, parse};
 pub use steps::{Step, StepProblem, Steps};

@@ -1,6 +1,7 @@
 //! Doing the edits of a log again, without the geometry that the page shows with them.
 
-use super::edit::{Before, Edit, numbers};
+use super::before::Before;
+use super::edit::{Edit, numbers};
 use super::labelled::Annotation;
 use super::log_lines::{Entry, Header};
 use super::steps::{Step, Steps};
