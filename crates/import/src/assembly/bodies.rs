@@ -40,6 +40,9 @@ impl Contents {
     }
 }
 
+/// Why a node is no body.
+pub(crate) const STRETCHED: &str = "it moves within something that is stretched or mirrored, which is no rigid motion; it stays";
+
 impl Assembly<'_> {
     /// The parts, lights and cameras that are there so far.
     pub(crate) fn contents(&self) -> Contents {
@@ -47,9 +50,21 @@ impl Assembly<'_> {
         Contents { parts, lights, cameras }
     }
 
+    /// Whether lights or cameras came after `before`.
+    pub(crate) fn has_more_than_parts(&self, before: Contents) -> bool {
+        let now = self.contents();
+        now.lights > before.lights || now.cameras > before.cameras
+    }
+
     /// A body that moves by `poses` in a frame of the file: the identity is rest. `None`, with a warning, if the frame is distorted or
     /// mirrored, so that the motion is not rigid.
-    pub(crate) fn push_body(
+    pub(crate) fn push_body(&mut self, name: &str, parent: Option<BodyId>, file_from_frame: DAffine3, poses: TimedPoses) -> Option<BodyId> {
+        let body = self.try_body(name, parent, file_from_frame, poses);
+        self.told_of(name, body)
+    }
+
+    /// A body as [`Assembly::push_body`] adds it, without a warning.
+    pub(crate) fn try_body(
         &mut self,
         name: &str,
         parent: Option<BodyId>,
@@ -57,7 +72,7 @@ impl Assembly<'_> {
         (times_s, poses): TimedPoses,
     ) -> Option<BodyId> {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses };
-        self.push_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
+        self.try_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
     }
 
     /// A body whose motion is stated in a frame of the file, as [`Assembly::push_body`] adds it, with the least and greatest of its states.
@@ -69,15 +84,29 @@ impl Assembly<'_> {
         motion: BodyMotion,
         limits: Option<[f64; 2]>,
     ) -> Option<BodyId> {
+        let body = self.try_jointed(name, parent, file_from_frame, motion, limits);
+        self.told_of(name, body)
+    }
+
+    /// Warns of a body that could not be added.
+    fn told_of(&mut self, name: &str, body: Option<BodyId>) -> Option<BodyId> {
+        if body.is_none() {
+            self.warn(format!("node {name:?}"), STRETCHED);
+        }
+        body
+    }
+
+    fn try_jointed(
+        &mut self,
+        name: &str,
+        parent: Option<BodyId>,
+        file_from_frame: DAffine3,
+        motion: BodyMotion,
+        limits: Option<[f64; 2]>,
+    ) -> Option<BodyId> {
         let body =
             Body { name: self.unique_body(name), parent, parts: Vec::new(), lights: Vec::new(), cameras: Vec::new(), limits, motion };
-        let Some(body) = body.carried(&(self.world_from_file * file_from_frame)) else {
-            self.warn(
-                format!("node {name:?}"),
-                "it moves within something that is stretched or mirrored, which is no rigid motion; it stays",
-            );
-            return None;
-        };
+        let body = body.carried(&(self.world_from_file * file_from_frame))?;
         self.scene.bodies.push(body);
         Some(self.scene.bodies.len() as BodyId - 1)
     }
@@ -167,6 +196,16 @@ impl Assembly<'_> {
     /// Takes out the bodies that carry nothing, themselves or by others; the number of those that move.
     pub(crate) fn drop_unused_bodies(&mut self) -> usize {
         self.scene.remove_unused_bodies();
+        // What deforms is called as its part is, unless a body that is left has that name.
+        for number in 0..self.scene.bodies.len() {
+            let Body { parts, motion, .. } = &self.scene.bodies[number];
+            if let (BodyStates::Deform { .. }, [part]) = (&motion.states, parts.as_slice()) {
+                let part = self.scene.parts[*part as usize].name.clone();
+                if self.unique_body(&part) == part {
+                    self.scene.bodies[number].name = part;
+                }
+            }
+        }
         self.scene.bodies.iter().filter(|body| !body.motion.is_rest()).count()
     }
 }

@@ -16,7 +16,7 @@ mod numbered;
 mod survey;
 
 pub(crate) use adopt::Piece;
-pub(crate) use bodies::{Contents, TimedPoses, TimedShapes};
+pub(crate) use bodies::{Contents, STRETCHED, TimedPoses, TimedShapes};
 pub(crate) use contents::orthonormal;
 pub(crate) use files::Source;
 pub(crate) use find::is_absolute;

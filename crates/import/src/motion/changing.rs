@@ -2,7 +2,7 @@
 
 use super::rigid::rigid;
 use super::{Side, length_in};
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, STRETCHED};
 use enfilade_math::DAffine3;
 use enfilade_scene::BodyId;
 
@@ -22,24 +22,41 @@ pub(crate) struct Changing<'c> {
     pub told: &'c dyn Fn(f64) -> String,
 }
 
+/// How a node moves.
+pub(crate) struct Moved {
+    /// The body that it is; `None` where it stays.
+    pub body: Option<BodyId>,
+    /// Why the body is not all of its motion, as what is said of the node.
+    pub problem: Option<String>,
+}
+
 impl Changing<'_> {
     /// The body that the node is; `None` where it stays, with a warning if it should not.
-    pub(crate) fn body(self, (file_from_parent, bearer): (DAffine3, Option<BodyId>), a: &mut Assembly) -> Option<BodyId> {
+    pub(crate) fn body(self, within: (DAffine3, Option<BodyId>), a: &mut Assembly) -> Option<BodyId> {
+        let place = self.place;
+        let Moved { body, problem } = self.moved(within, a);
+        if let Some(problem) = problem {
+            a.warn(place, problem);
+        }
+        body
+    }
+
+    /// The body that the node is, and what is missing of its motion then.
+    pub(crate) fn moved(self, (file_from_parent, bearer): (DAffine3, Option<BodyId>), a: &mut Assembly) -> Moved {
         let length = length_in(&file_from_parent, a.meters_per_unit());
         let motion = match rigid(self.rest, self.moments, length, self.local) {
             Ok(motion) => motion,
             Err(problem) => {
                 a.warn(self.place, format!("it is animated, but {problem}; it stays"));
-                return None;
+                return Moved { body: None, problem: None };
             }
         };
-        if let Some(time_s) = motion.distorted_at_s {
-            let what = "it changes its scale or shear, which no rigid motion does, and keeps those of rest; for the first time at";
-            a.warn(self.place, format!("{what} {}", (self.told)(time_s)));
-        }
+        let what = "it changes its scale or shear, which no rigid motion does, and keeps those of rest; for the first time at";
+        let distorted = motion.distorted_at_s.map(|time_s| format!("{what} {}", (self.told)(time_s)));
         if motion.is_rest() {
-            return None;
+            return Moved { body: None, problem: distorted };
         }
-        a.push_body(self.name, bearer, file_from_parent * motion.parent_from_frame, motion.states)
+        let body = a.try_body(self.name, bearer, file_from_parent * motion.parent_from_frame, motion.states);
+        Moved { body, problem: if body.is_none() { Some(STRETCHED.into()) } else { distorted } }
     }
 }

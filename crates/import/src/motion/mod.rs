@@ -7,7 +7,7 @@ mod changing;
 mod rigid;
 mod shapes;
 
-pub(crate) use changing::Changing;
+pub(crate) use changing::{Changing, Moved};
 pub(crate) use rigid::between_placements;
 pub(crate) use shapes::{Shapes, place, shapes};
 

@@ -4,17 +4,16 @@
 //! `startTimeCode`.
 
 use super::camera::name;
-use super::deform::Deform;
 use super::layer::Layer;
-use super::polygons::Corner;
 use super::stage::Prim;
+use super::stretch::Stretch;
 use super::value::Value;
+use super::walk::{Piece, State};
 use super::xform::Xform;
 use crate::assembly::Assembly;
-use crate::motion::{Changing, Shapes, length_in, shapes};
-use enfilade_math::DAffine3;
-use enfilade_scene::{BodyId, PartId};
-use std::convert::Infallible;
+use crate::motion::{Changing, Moved, Shapes, length_in, shapes};
+use enfilade_math::{DAffine3, DVec3};
+use enfilade_scene::{BodyId, PartId, Shape};
 
 /// The motion of the prims of a stage.
 pub(super) struct Animations {
@@ -33,7 +32,8 @@ impl Animations {
         Self { codes_per_second: layer.codes_per_second(), stated, sampled: None }
     }
 
-    /// The body that a prim is, if it moves by itself, else the one that bears it. `prefix` goes before its name.
+    /// The body that a prim is, if it moves by itself, else the one that bears it, and what of its motion no body has. `prefix` goes before
+    /// its name.
     pub(super) fn body(
         &mut self,
         prim: &Prim,
@@ -41,10 +41,10 @@ impl Animations {
         xform: &Xform,
         (file_from_parent, bearer): (DAffine3, Option<BodyId>),
         a: &mut Assembly,
-    ) -> Option<BodyId> {
+    ) -> Moved {
         let codes = xform.codes();
         if codes.is_empty() {
-            return bearer;
+            return Moved { body: bearer, problem: None };
         }
         let rate = self.codes_per_second;
         let node = Changing {
@@ -55,34 +55,42 @@ impl Animations {
             local: &|time_s, _| xform.at(time_s * rate),
             told: &|time_s| format!("time code {}", (time_s * rate * 1e6).round() / 1e6),
         };
-        let body = node.body((file_from_parent, bearer), a);
-        if body.is_some() {
+        let moved = node.moved((file_from_parent, bearer), a);
+        if moved.body.is_some() {
             self.note(&codes);
         }
-        body.or(bearer)
+        Moved { body: moved.body.or(bearer), ..moved }
     }
 
-    /// Makes a placed part deform, borne by a body if there is one.
-    pub(super) fn deform(
-        &mut self,
-        prim: &Prim,
-        (deform, corners, mesh): (&Deform, &[Corner], u32),
-        (part, bearer, file_from_mesh): (PartId, Option<BodyId>, &DAffine3),
-        a: &mut Assembly,
-    ) {
-        let (codes, rate) = (deform.codes(), self.codes_per_second);
-        let length = length_in(file_from_mesh, a.meters_per_unit());
-        let mesh = a.mesh_at(mesh).clone();
-        let shape = |time_s: f64, _| Ok::<_, Infallible>(deform.shape(Some(time_s * rate), corners, &mesh));
-        match shapes(codes.iter().map(|code| code / rate).collect(), false, length, shape) {
+    /// Makes a placed part deform if its points change, or prims that it is in are stretched.
+    pub(super) fn deform(&mut self, prim: &Prim, piece: &Piece, origin: DVec3, (part, state): (PartId, &State), a: &mut Assembly) {
+        let (deform, stretch) = (&piece.deform, &state.stretch);
+        let mut codes = deform.as_ref().map(|(deform, _)| deform.codes()).unwrap_or_default();
+        codes.extend(stretch.iter().flat_map(Stretch::codes));
+        let (rate, mesh) = (self.codes_per_second, a.mesh_at(piece.mesh).clone());
+        let own = |code: f64| match deform {
+            Some((deform, corners)) => deform.shape(Some(code), corners, &mesh),
+            None => Shape { positions: mesh.positions.clone(), normals: mesh.normals.clone() },
+        };
+        let placed = (&state.file_from_parent, origin);
+        let shape = |time_s: f64, _| {
+            let (code, shape) = (time_s * rate, own(time_s * rate));
+            stretch.as_ref().map_or(Some(shape.clone()), |stretch| stretch.shape(code, shape, placed)).ok_or(())
+        };
+        let length = length_in(&state.file_from_parent, a.meters_per_unit());
+        let problem = match shapes(codes.iter().map(|code| code / rate).collect(), false, length, shape) {
             Ok(Shapes::Timed(shapes)) => {
+                let bearer = stretch.as_ref().map_or(state.body, |stretch| stretch.bearer);
                 if a.deform(part, bearer, shapes) {
                     self.note(&codes);
                 }
+                return;
             }
-            Ok(Shapes::Refused(problem)) => a.warn(&prim.path, format!("its shape changes, but {problem}; it keeps that of rest")),
-            Ok(Shapes::Constant) => (),
-        }
+            Ok(Shapes::Constant) => return,
+            Ok(Shapes::Refused(problem)) => problem,
+            Err(()) => "it is mirrored then".into(),
+        };
+        a.warn(&prim.path, format!("its shape changes, but {problem}; it keeps that of rest"));
     }
 
     /// Takes in the time codes at which something has a state.

@@ -66,6 +66,7 @@ impl Walk<'_> {
                 object: Some(object),
                 thing: Thing::placed(object, state.thing),
                 label: of_instance(inherited.label, state.object, object),
+                stretch: state.stretch.as_ref().map(|stretch| stretch.placed(placed)),
                 ..inherited.clone()
             };
             self.visit(&prototype.clone(), &state, a)?;

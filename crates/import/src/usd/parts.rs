@@ -28,7 +28,7 @@ impl Walk<'_> {
                     .into_iter()
                     .map(|mesh| Piece { mesh, name: String::new(), bindings: Bindings::default(), semantic: None, deform: None })
                     .collect();
-                Shape { pieces, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
+                Shape { pieces, origin: DVec3::ZERO, sizes: Sizes { faces: 1, points: 1, corners: 1 }, smooth: false }
             }
         };
         self.pieces.insert(key, shape.clone());
@@ -51,7 +51,7 @@ impl Walk<'_> {
                 };
                 let deform = Deform::of(prim, &polygons, (&state.rig, &mut self.skeletons), self.stage, a)?;
                 let pieces = self.split(prim, &polygons, (&uv_name, deform.map(Rc::new).as_ref()), a)?;
-                Shape { pieces, sizes: polygons.sizes(), smooth: polygons.smooth }
+                Shape { pieces, origin: polygons.origin, sizes: polygons.sizes(), smooth: polygons.smooth }
             }
         };
         self.cages += usize::from(shape.smooth);
@@ -127,8 +127,8 @@ impl Walk<'_> {
             let label = piece.semantic.map_or(state.label, |semantic| FileLabel::given(semantic, object));
             if let Some(part) = a.push_part_of(object, &part, piece.mesh, material, state.file_from_parent, label) {
                 self.things.part(state.thing, object, part);
-                if let Some((deform, corners)) = &piece.deform {
-                    self.animations.deform(prim, (deform, corners, piece.mesh), (part, state.body, &state.file_from_parent), a);
+                if piece.deform.is_some() || state.stretch.is_some() {
+                    self.animations.deform(prim, piece, shape.origin, (part, state), a);
                 }
             }
         }

@@ -13,11 +13,12 @@ use super::polygons::Corner;
 use super::primvar::Sizes;
 use super::shapes;
 use super::stage::{Prim, Stage};
+use super::stretch::Stretch;
 use super::things::{Thing, Things};
 use super::xform::Xform;
 use crate::ImportError;
 use crate::assembly::{Assembly, FileLabel};
-use enfilade_math::DAffine3;
+use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::{BodyId, ObjectId};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -41,6 +42,8 @@ pub(super) struct State {
     /// The thing that it is a piece of.
     pub thing: Option<Thing>,
     pub rig: Rig,
+    /// The prims that it is in and that no body can be.
+    pub stretch: Option<Stretch>,
 }
 
 /// A piece of a mesh: some faces as a scene mesh, the subset's name, and what it binds.
@@ -59,6 +62,8 @@ pub(super) struct Piece {
 #[derive(Clone)]
 pub(super) struct Shape {
     pub pieces: Vec<Piece>,
+    /// The point from which positions count.
+    pub origin: DVec3,
     pub sizes: Sizes,
     /// True for subdivision surfaces.
     pub smooth: bool,
@@ -128,6 +133,7 @@ impl<'s> Walk<'s> {
             object: None,
             thing: None,
             rig: Rig::default(),
+            stretch: None,
         };
         let names = root.children();
         for (i, name) in names.iter().enumerate() {
@@ -188,11 +194,14 @@ impl<'s> Walk<'s> {
         }
         let before = a.contents();
         let object = a.push_object(prim.name(), state.object);
-        let xform = Xform::of(prim, a);
+        let xform = Rc::new(Xform::of(prim, a));
         let (file_from_parent, bearer) = if xform.resets { (DAffine3::IDENTITY, None) } else { (state.file_from_parent, state.body) };
+        let moved = self.animations.body(prim, &state.prefix, &xform, (file_from_parent, bearer), a);
+        let begun = moved.problem.is_some().then(|| Stretch::new(file_from_parent, bearer));
+        let stretch = state.stretch.as_ref().filter(|_| !xform.resets).cloned().or(begun);
         let state = State {
             file_from_parent: file_from_parent * xform.rest(),
-            body: self.animations.body(prim, &state.prefix, &xform, (file_from_parent, bearer), a),
+            body: moved.body,
             label: label::at(prim, Some(object), state.label, &mut self.unknown_labels),
             bindings: bind::at(prim, &state.bindings, self.stage, a)?,
             constants: state.constants.below(prim),
@@ -201,6 +210,7 @@ impl<'s> Walk<'s> {
             object: Some(object),
             thing: Thing::at(prim, object, state.thing),
             rig: state.rig.at(prim),
+            stretch: stretch.map(|stretch| stretch.below(&xform)),
         };
         match prim.kind() {
             // Their shaders are read where they are bound.
@@ -233,6 +243,9 @@ impl<'s> Walk<'s> {
         for name in prim.children() {
             let child = self.stage.child(prim, &name, a)?;
             self.visit(&child, &state, a)?;
+        }
+        if let Some(problem) = moved.problem.filter(|_| a.has_more_than_parts(before)) {
+            a.warn(&prim.path, format!("its meshes follow it, but no light or camera in it does: {problem}"));
         }
         self.joints.met(prim, state.file_from_parent, before, a);
         Ok(())
