@@ -16,7 +16,9 @@ export function hear(since, heard) {
     const path = "/api/annotate/events";
     if (typeof SharedWorker === "undefined") return hearAlone(`${path}?since=${since}`, heard);
     if (!port) {
-        port = new SharedWorker(new URL("events_worker.js", import.meta.url), "events").port;
+        const worker = new SharedWorker(new URL("events_worker.js", import.meta.url), "events");
+        worker.addEventListener("error", () => hearAlone(`${path}?since=${since}`, heard));
+        port = worker.port;
         port.start();
     }
     port.onmessage = ({ data: { kind, text } }) => heard(kind, text);

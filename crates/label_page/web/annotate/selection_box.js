@@ -59,7 +59,7 @@ export function selectionBox(state, table, act) {
     const give = button("assign", "Give label");
     give.classList.add("primary");
     const confirm = button("confirm", "Confirm");
-    const again = button("same-again", "The same again");
+    const again = button("same-again", "Again");
     const label = [give, button("thing", "New thing"), confirm];
     const choose = [["whole", "Whole"], ["same-name", "Same name"], ["same-geometry", "Same shape"], ["split-component", "Split"], ["split-faces", "Paint"]].map(([id, text]) => button(id, text));
     const rows = el("div", { class: "rows" }, el("div", { class: "row" }, ...label, again), el("div", { class: "row" }, ...choose));
