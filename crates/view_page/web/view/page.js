@@ -44,7 +44,8 @@ export class Page {
         this.gallery = new Gallery(session, () => this.panel());
         this.findLayer = layerSearch(session);
         this.tools = new Tools(session, this.stage);
-        this.isReady = false;
+        /** Scene, camera and frame of what was measured; empty while an address is followed. */
+        this.place = "";
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
         /** @type {import("./catalogue.js").FrameFacts | null} */
@@ -72,7 +73,6 @@ export class Page {
 
     /** Says that the first picture is shown. */
     ready() {
-        this.isReady = true;
         document.body.dataset.ready = "true";
         this.gallery.isShown ? this.gallery.focus() : byId("stage").focus({ preventScroll: true });
     }
@@ -118,8 +118,7 @@ export class Page {
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
-        // What was measured is of one frame, unless an address says both; the frame that a page begins with is found by itself.
-        if (has("frame", "camera", "scene") && !has("ruler") && state.ruler && this.isReady) this.store.set({ ruler: "" }, { step: false });
+        this.#keepRuler(state, has("ruler"));
         if (has("ruler")) this.session.refresh();
         if (has("frame", "track")) this.tools.followTrack();
         if (has("frame", "layer", "mode", "camera")) this.tools.tell();
@@ -129,6 +128,16 @@ export class Page {
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
+    }
+
+    /** What was measured is of one frame, and ends with it. @param {State} state @param {boolean} isNew */
+    #keepRuler({ scene, camera, frame, ruler }, isNew) {
+        if (isNew) this.place = "";
+        if (!scene || !camera) return;
+        const place = `${scene}/${camera}/${frame}`;
+        const isOther = this.place !== "" && this.place !== place;
+        this.place = place;
+        if (ruler && isOther) this.store.set({ ruler: "" }, { step: false });
     }
 
     /** Another camera gives the other picture. */
