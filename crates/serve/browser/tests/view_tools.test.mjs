@@ -3,6 +3,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -242,14 +243,17 @@ describe("tools", () => {
 
     test("an empty folder is looked at until a run has made something there", async (t) => {
         const folder = mkdtempSync(join(tmpdir(), "empty-"));
-        t.after(() => rmSync(folder, { recursive: true, force: true }));
         const at = new URL((await serve(t, folder, 0, "view")).url).origin;
         await page.goto("about:blank");
         await page.goto(`${at}/view/`);
         await page.waitForSelector("body[data-ready=true]");
         await page.locator("#gallery-bar", { hasText: "0 frames" }).waitFor();
         const run = spawn(process.env.ENFILADE_BINARY, ["run", "--demo", folder, "--quiet", "--frames", "2", "--size", "96x72", "--samples", "2"], { stdio: "ignore" });
-        t.after(() => run.kill("SIGKILL"));
+        t.after(async () => {
+            run.kill("SIGKILL");
+            if (run.exitCode === null && run.signalCode === null) await once(run, "exit");
+            rmSync(folder, { recursive: true, force: true });
+        });
         await page.locator("#gallery-frames .place").nth(1).waitFor({ timeout: 120_000 });
         await page.locator("#gallery-frames").press("Enter");
         await painted();
