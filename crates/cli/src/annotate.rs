@@ -13,6 +13,7 @@ pub fn annotate(args: &AnnotateArgs, quiet: bool) -> Result<Verdict, Problem> {
         path: args.input.clone(),
         scene: args.scene.clone(),
         labels: args.labels.clone(),
+        carry: args.carry.clone(),
         classes: args.classes.clone(),
         meters_per_unit: args.meters_per_unit,
         up_axis: args.up_axis,

@@ -61,6 +61,17 @@ impl Dataset {
         Ok(dataset)
     }
 
+    /// The dataset that a run is about to make in a folder that is there and has no folders yet, apart from hidden ones.
+    ///
+    /// # Errors
+    /// When the folder cannot be read, or has folders that are no dataset.
+    pub fn awaited(root: impl AsRef<Path>) -> Result<Self, DatasetError> {
+        let root = root.as_ref();
+        let mut entries = std::fs::read_dir(root).map_err(DatasetError::at("read the folder", root))?.flatten();
+        let is_folder = |entry: std::fs::DirEntry| !entry.file_name().to_string_lossy().starts_with('.') && entry.path().is_dir();
+        if entries.any(is_folder) { Self::open(root) } else { Ok(Self { layout: Layout::new(root), camera_table: None }) }
+    }
+
     /// The dataset's folder.
     pub fn root(&self) -> &Path {
         self.layout.root()

@@ -28,10 +28,18 @@ pub enum Action {
     AssignEach { pieces: Vec<u32>, semantic: Vec<i64> },
     /// Splits a piece.
     Split { piece: u32, by: SplitBy },
-    /// Undoes the last edit.
-    Undo,
-    /// Does the last undone edit again.
-    Redo,
+    /// Labels the moved copies of pieces as these are labelled, each copy with instances of its own.
+    SameAgain { pieces: Vec<u32> },
+    /// Undoes the last edit of the person who asks, or of everyone.
+    Undo {
+        #[serde(default)]
+        everyone: bool,
+    },
+    /// Does again what was undone last: by the person who asks, or by everyone.
+    Redo {
+        #[serde(default)]
+        everyone: bool,
+    },
 }
 
 /// A stroke over a view, and how it selects pieces. Requests flatten it into theirs and refuse fields that neither has.
@@ -158,7 +166,11 @@ impl Context<'_> {
             }
             Action::AssignEach { pieces, semantic } => self.label_each(pieces, semantic),
             Action::Split { piece, by } => self.split(*piece, by).map(Some),
-            Action::Undo | Action::Redo => Ok(None),
+            Action::SameAgain { pieces } => {
+                self.check_pieces("pieces", pieces)?;
+                self.same_again(&distinct(pieces)).map(Some)
+            }
+            Action::Undo { .. } | Action::Redo { .. } => Ok(None),
         }
     }
 
@@ -244,7 +256,7 @@ impl Context<'_> {
     }
 
     /// The first of `wanted` instance numbers that were never given out.
-    fn instances(&self, wanted: usize) -> Result<i16, Refusal> {
+    pub(super) fn instances(&self, wanted: usize) -> Result<i16, Refusal> {
         let last = self.next_instance as usize + wanted;
         if last > i16::MAX as usize + 1 {
             let error = format!("{wanted} more instances would go beyond {}, which is what int16 images hold", i16::MAX);

@@ -1,12 +1,16 @@
 //! A scene that is open for annotation: everything that the routes ask for, safe to use from several requests at once.
 
 use super::action::{Action, Look, Refusal};
+use super::author::Author;
 use super::camera::CameraRequest;
+use super::carry::{CARRIED, Carried, set_aside};
 use super::change::Change;
 use super::clock;
+use super::earlier::CarryError;
 use super::events::Events;
 use super::log::LogError;
 use super::options::AnnotateOptions;
+use super::part_shapes::{PartShape, SHAPES};
 use super::progress::Seen;
 use super::review::{REVIEW_LOG, Review, ReviewState, Reviews};
 use super::save::Snapshot;
@@ -41,6 +45,8 @@ pub enum OpenError {
     WorkLog(String),
     #[error("{0}")]
     Reviews(String),
+    #[error(transparent)]
+    Carry(#[from] CarryError),
     #[error(transparent)]
     File(#[from] DatasetError),
 }
@@ -80,13 +86,23 @@ impl App {
             Some(file) => Classes::read(file)?,
             None => MeshFiles::new(folder).read_own_classes()?.unwrap_or_else(Classes::nyu40),
         };
+        let carried = carried(&scene, options)?;
         cx.progress("preparing rays", 1, 3);
         let bvh = Arc::new(Bvh::new(&scene.corners, &|_| true));
         cx.progress("sorting faces", 2, 3);
         let order = DisplayOrder::new(&scene.corners);
         let classes = Arc::new(classes);
-        let (session, warning) = Session::open(scene.clone(), classes.clone(), bvh.clone(), folder)?;
+        let (mut session, warning) = Session::open(scene.clone(), classes.clone(), bvh.clone(), folder)?;
         if let Some(message) = warning {
+            cx.warn(Warning { place: scene.name.clone(), message });
+        }
+        if let Some(carried) = carried {
+            if session.revision() > 0 {
+                return Err(CarryError::Begun(folder.clone()).into());
+            }
+            session.carry(&carried.labels)?;
+            let list = carried.write(folder)?;
+            let message = format!("{}; {} lists them", carried.summary, list.display());
             cx.warn(Warning { place: scene.name.clone(), message });
         }
         let unknown_class = session.pieces().list().iter().find(|piece| classes.check(piece.label.semantic.into()).is_err());
@@ -98,7 +114,7 @@ impl App {
         // What people did beside editing.
         let worklog = WorkLog::open(folder).map_err(OpenError::WorkLog)?;
         let reviews = Reviews::open(folder).map_err(OpenError::Reviews)?;
-        let revision = session.standing().revision;
+        let revision = session.revision();
         let app = Self {
             events: Events::new(revision),
             session: RwLock::new(session),
@@ -182,10 +198,10 @@ impl App {
     ///
     /// # Errors
     /// When it is refused or cannot be logged; then nothing has changed.
-    pub fn act(&self, action: &Action, client: &str, id: Option<&str>) -> Result<Change, ActionError> {
+    pub fn act(&self, action: &Action, author: &Author) -> Result<Change, ActionError> {
         let mut session = self.session.write().unwrap_or_else(PoisonError::into_inner);
-        let before = session.standing().revision;
-        let change = session.act(action, client, id)?;
+        let before = session.revision();
+        let change = session.act(action, author)?;
         if change.revision > before {
             // Announced while the session is locked, so that pages get changes in order.
             self.events.publish(&change);
@@ -214,15 +230,17 @@ impl App {
     ///
     /// # Errors
     /// When a piece number is wrong, or the log cannot be written; then nothing has changed.
-    pub fn review(&self, client: &str, pieces: &[u32], state: ReviewState, note: &str) -> Result<(), ActionError> {
+    pub fn review(&self, author: &Author, pieces: &[u32], state: ReviewState, note: &str) -> Result<(), ActionError> {
         let names = {
             let session = self.session();
             session.context().check_pieces("pieces", pieces)?;
             pieces.iter().map(|&piece| session.pieces().list()[piece as usize].name.clone()).collect()
         };
-        let review = Review { time: clock::iso(clock::now_s()), client: client.into(), pieces: names, state, note: note.into() };
+        let Author { client, who, .. } = author.clone();
+        let review = Review { time: clock::iso(clock::now_s()), client, who, pieces: names, state, note: note.into() };
         self.reviews.write().unwrap_or_else(PoisonError::into_inner).add(review).map_err(ActionError::Review)?;
         self.write_reviews().map_err(ActionError::Review)?;
+        self.events.publish_reviews();
         self.worklog().input(clock::now_s());
         Ok(())
     }
@@ -272,18 +290,24 @@ impl App {
             files.extend(snapshot.write_tables(&mesh, &self.classes, saved.objects != Some(objects))?);
         }
         files.extend(self.write_reviews()?);
+        if saved.objects.is_none() {
+            PartShape::write(&PartShape::of_scene(&self.scene), folder)?;
+        }
         *saved = Saved { revision, objects: Some(objects) };
         let worklog = self.worklog();
         worklog.write()?;
         files.extend(
-            [ANNOTATION_LOG, TOOL_LOG, WORK_LOG, REVIEW_LOG].map(|name| folder.join(name)).into_iter().filter(|path| path.is_file()),
+            [ANNOTATION_LOG, TOOL_LOG, WORK_LOG, REVIEW_LOG, SHAPES, CARRIED]
+                .map(|name| folder.join(name))
+                .into_iter()
+                .filter(|path| path.is_file()),
         );
         Ok(files)
     }
 
     /// True when there are edits that are not in the files yet. They are in the log all the same.
     pub fn is_unsaved(&self) -> bool {
-        self.saved.lock().unwrap_or_else(PoisonError::into_inner).revision < self.session().standing().revision
+        self.saved.lock().unwrap_or_else(PoisonError::into_inner).revision < self.session().revision()
     }
 
     /// Writes what is not written yet, and notes that the scene is closed.
@@ -306,4 +330,19 @@ impl App {
     pub fn labels_folder(&self) -> &Path {
         &self.scene.labels_folder
     }
+}
+
+/// The labels of an earlier version, if they were asked for; where they are in the scene's own folder, their log is set aside.
+fn carried(scene: &AnnotatedScene, options: &AnnotateOptions) -> Result<Option<Carried>, OpenError> {
+    let Some(from) = &options.carry else { return Ok(None) };
+    let labels = &scene.labels_folder;
+    let is_own = labels.canonicalize().ok().zip(from.canonicalize().ok()).is_some_and(|(labels, from)| labels == from);
+    if MeshFiles::new(labels).annotated_scene()?.is_some_and(|hash| !is_own || hash == scene.hash()) {
+        return Err(CarryError::Begun(labels.clone()).into());
+    }
+    let carried = Carried::find(from, &PartShape::of_scene(scene)).map_err(OpenError::Carry)?;
+    if is_own {
+        set_aside(labels)?;
+    }
+    Ok(Some(carried))
 }

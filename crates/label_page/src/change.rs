@@ -2,8 +2,8 @@
 
 use super::pieces::{Piece, Pieces};
 use super::scene::NO_MATERIAL;
-use enfilade_label::annotation::Edit;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// A change, as it is sent to pages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -12,6 +12,10 @@ pub struct Change {
     pub revision: u64,
     /// The client that requested it.
     pub client: String,
+    /// The name of the person who requested it.
+    pub who: Option<String>,
+    /// Of an undo or redo: the name of the person whose edit that was.
+    pub of: Option<String>,
     /// For people.
     pub description: String,
     /// Pieces with other labels than before.
@@ -36,19 +40,30 @@ pub struct Change {
     pub undo_description: Option<String>,
     /// The edit that redo would repeat.
     pub redo_description: Option<String>,
+    /// What each person can undo and redo; under the empty name, who has done nothing yet.
+    pub people: BTreeMap<String, Own>,
     /// The first instance number that was never given out.
     pub next_instance: i32,
 }
 
+/// What somebody can undo and redo, described.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Own {
+    /// The edit that undo would revert.
+    pub undo: Option<String>,
+    /// The edit that redo would repeat.
+    pub redo: Option<String>,
+}
+
 /// The revision of a session, and what can be undone and redone.
-#[derive(Clone, Copy, Debug)]
-pub struct Standing<'a> {
+#[derive(Clone, Debug)]
+pub struct Standing {
     /// Number of edits ever made, undone ones and undoing included.
     pub revision: u64,
-    /// The edit that undo would revert.
-    pub undo_description: Option<&'a str>,
-    /// The edit that redo would repeat.
-    pub redo_description: Option<&'a str>,
+    /// The last edits of all.
+    pub all: Own,
+    /// The last edits of each person, by name.
+    pub people: BTreeMap<String, Own>,
     /// The first instance number that was never given out.
     pub next_instance: i32,
 }
@@ -126,19 +141,14 @@ impl Change {
 
     /// Adds what was done, by whom, and the state of the session after it.
     #[must_use]
-    pub fn told(mut self, edit: Option<&Edit>, client: &str, now: &Standing<'_>) -> Self {
-        self.description = match edit {
-            None => "Nothing to change".into(),
-            Some(Edit::Undo) => format!("Undone: {}", now.redo_description.unwrap_or("")),
-            Some(Edit::Redo) => format!("Done again: {}", now.undo_description.unwrap_or("")),
-            Some(edit) => edit.description().to_string(),
-        };
-        self.client = client.into();
+    pub fn told(mut self, now: &Standing, client: &str, who: Option<String>, description: String) -> Self {
+        self.description = description;
+        (self.client, self.who) = (client.into(), who);
         self.revision = now.revision;
-        self.undo_description = now.undo_description.map(Into::into);
-        self.redo_description = now.redo_description.map(Into::into);
+        (self.undo_description, self.redo_description) = (now.all.undo.clone(), now.all.redo.clone());
         self.can_undo = self.undo_description.is_some();
         self.can_redo = self.redo_description.is_some();
+        self.people.clone_from(&now.people);
         self.next_instance = now.next_instance;
         self
     }

@@ -11,11 +11,13 @@ use tokio::sync::broadcast::{Receiver, Sender, channel, error::RecvError};
 /// Changes that are kept for pages that lost the connection; a page that missed more loads the scene again.
 const KEPT: usize = 256;
 
-/// A change as text.
+/// What is announced.
 #[derive(Clone, Debug)]
-struct Message {
-    revision: u64,
-    text: Arc<str>,
+enum Message {
+    /// A change, as text.
+    Change { revision: u64, text: Arc<str> },
+    /// Pieces were reviewed.
+    Reviews,
 }
 
 /// Channel on which changes are announced.
@@ -25,39 +27,47 @@ pub struct Events {
 }
 
 struct Kept {
-    /// The revision before the first of the messages.
+    /// The revision before the first of the changes.
     since: u64,
-    messages: VecDeque<Message>,
+    /// Revision and text of each.
+    changes: VecDeque<(u64, Arc<str>)>,
 }
 
 impl Events {
     /// Begins at the revision that pages load.
     pub fn new(revision: u64) -> Self {
-        Self { kept: Mutex::new(Kept { since: revision, messages: VecDeque::new() }), sender: channel(KEPT).0 }
+        Self { kept: Mutex::new(Kept { since: revision, changes: VecDeque::new() }), sender: channel(KEPT).0 }
     }
 
     /// Announces a change. The caller must announce changes in order.
     pub fn publish(&self, change: &Change) {
-        let text = serde_json::to_string(change).expect("plain data has a JSON text");
-        let message = Message { revision: change.revision, text: text.into() };
+        let text: Arc<str> = serde_json::to_string(change).expect("plain data has a JSON text").into();
+        let revision = change.revision;
         let mut kept = self.lock();
-        kept.messages.push_back(message.clone());
-        if kept.messages.len() > KEPT
-            && let Some(dropped) = kept.messages.pop_front()
+        kept.changes.push_back((revision, Arc::clone(&text)));
+        if kept.changes.len() > KEPT
+            && let Some((dropped, _)) = kept.changes.pop_front()
         {
-            kept.since = dropped.revision;
+            kept.since = dropped;
         }
-        let _ = self.sender.send(message); // it fails if no page listens
+        let _ = self.sender.send(Message::Change { revision, text }); // it fails if no page listens
+    }
+
+    /// Announces that pieces were reviewed.
+    pub fn publish_reviews(&self) {
+        let _ = self.sender.send(Message::Reviews); // it fails if no page listens
     }
 
     /// The changes after revision `since`, those to come included; without `since` those to come.
     pub fn after(&self, since: Option<u64>) -> impl Stream<Item = Result<Event, Infallible>> + Send + use<> {
         let kept = self.lock();
-        let last = kept.messages.back().map_or(kept.since, |message| message.revision);
+        let last = kept.changes.back().map_or(kept.since, |(revision, _)| *revision);
         let missed: VecDeque<Next> = match since {
             None => VecDeque::new(),
             Some(since) if (kept.since..=last).contains(&since) => {
-                kept.messages.iter().filter(|message| message.revision > since).cloned().map(Next::Change).collect()
+                let change =
+                    |(revision, text): &(u64, Arc<str>)| Next::Message(Message::Change { revision: *revision, text: Arc::clone(text) });
+                kept.changes.iter().filter(|(revision, _)| *revision > since).map(change).collect()
             }
             Some(_) => VecDeque::from([Next::Reload]),
         };
@@ -72,7 +82,7 @@ impl Events {
 
 /// The next event for a page.
 enum Next {
-    Change(Message),
+    Message(Message),
     /// The page missed too much, and has to load the scene again.
     Reload,
 }
@@ -83,13 +93,14 @@ async fn next((mut missed, mut receiver): State) -> Option<(Result<Event, Infall
     let next = match missed.pop_front() {
         Some(next) => next,
         None => match receiver.recv().await {
-            Ok(message) => Next::Change(message),
+            Ok(message) => Next::Message(message),
             Err(RecvError::Lagged(_)) => Next::Reload,
             Err(RecvError::Closed) => return None,
         },
     };
     let event = match next {
-        Next::Change(message) => Event::default().id(message.revision.to_string()).data(message.text),
+        Next::Message(Message::Change { revision, text }) => Event::default().id(revision.to_string()).data(text),
+        Next::Message(Message::Reviews) => Event::default().event("reviews").data("{}"),
         Next::Reload => Event::default().event("reload").data("{}"),
     };
     Some((Ok(event), (missed, receiver)))

@@ -6,6 +6,9 @@ use serde::Serialize;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
 
+/// What the first line begins with is looked for in so many bytes.
+const HEAD_BYTES: u64 = 256;
+
 /// An open file of lines.
 pub struct JsonLines {
     file: File,
@@ -48,6 +51,24 @@ impl JsonLines {
         written
     }
 
+    /// Replaces a text in the first line by another of the same length, if it is there. When this returns it is on the disk.
+    ///
+    /// # Errors
+    /// When the file cannot be read or written.
+    pub fn replace_in_first(&mut self, text: &str, by: &str) -> std::io::Result<()> {
+        debug_assert_eq!(text.len(), by.len());
+        let mut head = vec![0; self.length.min(HEAD_BYTES) as usize];
+        self.file.seek(SeekFrom::Start(0))?;
+        self.file.read_exact(&mut head)?;
+        let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
+        if let Some(at) = line.windows(text.len()).position(|found| found == text.as_bytes()) {
+            self.file.seek(SeekFrom::Start(at as u64))?;
+            self.file.write_all(by.as_bytes())?;
+            self.file.sync_data()?;
+        }
+        self.drop_incomplete()
+    }
+
     /// Cuts off what follows the complete lines.
     ///
     /// # Errors
@@ -74,6 +95,9 @@ mod tests {
         lines.append(&"four").unwrap();
         let (mut lines, whole, was_cut) = open();
         assert_eq!((whole.as_slice(), was_cut), (&b"1\n2\n3\n\"four\"\n"[..], false));
+        lines.replace_in_first("1", "7").unwrap();
+        lines.append(&8).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"7\n2\n3\n\"four\"\n8\n");
         lines.clear();
         lines.append(&5).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"5\n");

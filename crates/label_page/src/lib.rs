@@ -10,16 +10,21 @@
 //! tables are written shortly after (`save.rs`). Reviews of pieces are not labels and have a separate log (`review.rs`).
 
 mod action;
+mod again;
 mod answer;
 mod app;
+mod author;
 mod camera;
+mod carry;
 mod change;
 mod clock;
+mod earlier;
 mod events;
 mod face_colors;
 mod json_lines;
 mod log;
 mod options;
+mod part_shapes;
 mod pieces;
 mod planned;
 mod progress;

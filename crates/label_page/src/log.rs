@@ -6,7 +6,7 @@
 use super::json_lines::JsonLines;
 use super::scene::AnnotatedScene;
 use enfilade_dataset::ANNOTATION_LOG;
-use enfilade_label::annotation::{AnnotationError, Entry, FORMAT, Header, LogProblem, parse};
+use enfilade_label::annotation::{AnnotationError, Entry, FORMAT, FORMAT_OF_PEOPLE, Header, LogProblem, parse};
 use enfilade_scene::PartLabel;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -29,7 +29,10 @@ pub enum LogError {
     InUse(PathBuf),
     /// The log is about another scene.
     #[error(
-        "{} is about another scene ({log}; here {scene}); name another folder with --labels, or move the log away to start again", path.display()
+        "{} is about another scene ({log}; here {scene}); --carry {} takes its labels along, by names and shapes of parts; or name another \
+         folder with --labels, or move the log away to start again",
+        path.display(),
+        path.parent().unwrap_or(path).display()
     )]
     OtherScene {
         /// The file.
@@ -133,6 +136,11 @@ impl Log {
     /// # Errors
     /// When the file cannot be written.
     pub fn append(&mut self, entry: &Entry) -> Result<(), LogError> {
-        self.lines.append(entry).map_err(|source| LogError::Io { action: "write", path: self.path.clone(), source })
+        let io = |source| LogError::Io { action: "write", path: self.path.clone(), source };
+        if entry.edit.is_of_people() {
+            // Programs that do not know such edits then refuse the log for its format.
+            self.lines.replace_in_first(FORMAT, FORMAT_OF_PEOPLE).map_err(io)?;
+        }
+        self.lines.append(entry).map_err(io)
     }
 }

@@ -12,6 +12,8 @@ pub struct AnnotateOptions {
     pub scene: Option<String>,
     /// Where labels go, if not the folder of the dataset or beside the file.
     pub labels: Option<PathBuf>,
+    /// A folder with labels of an earlier version of the scene, which are carried over by names and shapes.
+    pub carry: Option<PathBuf>,
     /// A list of classes, if not the one in the folder of labels or NYU40.
     pub classes: Option<PathBuf>,
     /// Metres per unit of a scene file, if not 1; multiplies the unit stated in the file.

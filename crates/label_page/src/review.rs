@@ -50,6 +50,9 @@ pub struct Review {
     pub time: String,
     /// The client that made it.
     pub client: String,
+    /// The name of the person; older logs have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub who: Option<String>,
     /// Names of the pieces.
     pub pieces: Vec<String>,
     /// Their state from now on.
@@ -64,8 +67,19 @@ pub struct Reviews {
     folder: PathBuf,
     /// The log, once there is one.
     log: Option<JsonLines>,
-    /// State and note of each piece that was reviewed.
-    of_piece: BTreeMap<String, (ReviewState, String)>,
+    /// The last review of each piece that was reviewed.
+    of_piece: BTreeMap<String, Said>,
+}
+
+/// What is said of a piece.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    /// Its state.
+    pub state: ReviewState,
+    /// For people; may be empty.
+    pub note: String,
+    /// Who said it; empty without a name.
+    pub who: String,
 }
 
 impl Reviews {
@@ -105,16 +119,16 @@ impl Reviews {
         Ok(())
     }
 
-    fn take(&mut self, Review { pieces, state, note, .. }: Review) {
+    fn take(&mut self, Review { pieces, state, note, who, .. }: Review) {
+        let said = Said { state, note, who: who.unwrap_or_default() };
         for piece in pieces {
-            self.of_piece.insert(piece, (state, note.clone()));
+            self.of_piece.insert(piece, said.clone());
         }
     }
 
-    /// State and note of a piece; none if it was not reviewed, or is to do without a note.
-    pub fn of(&self, piece: &str) -> Option<(ReviewState, &str)> {
-        let (state, note) = self.of_piece.get(piece)?;
-        (*state != ReviewState::ToDo || !note.is_empty()).then_some((*state, note.as_str()))
+    /// What is said of a piece; none if it was not reviewed, or is to do without a note.
+    pub fn of(&self, piece: &str) -> Option<&Said> {
+        self.of_piece.get(piece).filter(|said| said.state != ReviewState::ToDo || !said.note.is_empty())
     }
 
     /// Writes the table: a row for each of these pieces that was reviewed. Without any review there is no table.
@@ -126,11 +140,11 @@ impl Reviews {
             return Ok(None);
         }
         let mut table = csv::Writer::from_writer(Vec::new());
-        let mut row = |fields: [&str; 3]| table.write_record(fields).expect("writing to memory cannot fail");
-        row(["object_name", "state", "note"]);
+        let mut row = |fields: [&str; 4]| table.write_record(fields).expect("writing to memory cannot fail");
+        row(["object_name", "state", "note", "who"]);
         for piece in pieces {
-            if let Some((state, note)) = self.of(piece) {
-                row([piece, state.name(), note]);
+            if let Some(Said { state, note, who }) = self.of(piece) {
+                row([piece, state.name(), note, who]);
             }
         }
         let path = self.folder.join(REVIEW_TABLE);
@@ -145,7 +159,7 @@ mod tests {
 
     fn review(pieces: &[&str], state: ReviewState, note: &str) -> Review {
         let pieces = pieces.iter().map(|&piece| piece.into()).collect();
-        Review { time: "2026-01-01T00:00:00Z".into(), client: "test".into(), pieces, state, note: note.into() }
+        Review { time: "2026-01-01T00:00:00Z".into(), client: "test".into(), who: Some("Ada".into()), pieces, state, note: note.into() }
     }
 
     #[test]
@@ -161,10 +175,11 @@ mod tests {
         cut.extend(b"{\"cut");
         std::fs::write(&log, cut).unwrap();
         let again = Reviews::open(folder.path()).unwrap();
-        assert_eq!(again.of("chair"), Some((ReviewState::Question, "a stool, or not?")));
+        let said = Said { state: ReviewState::Question, note: "a stool, or not?".into(), who: "Ada".into() };
+        assert_eq!(again.of("chair"), Some(&said));
         assert_eq!(again.of("table"), None);
         let table = again.write(["chair", "table", "lamp"].into_iter()).unwrap().unwrap();
-        assert_eq!(std::fs::read_to_string(table).unwrap(), "object_name,state,note\nchair,question,\"a stool, or not?\"\n");
+        assert_eq!(std::fs::read_to_string(table).unwrap(), "object_name,state,note,who\nchair,question,\"a stool, or not?\",Ada\n");
         std::fs::write(&log, "nonsense\n").unwrap();
         assert!(Reviews::open(folder.path()).err().unwrap().contains("annotation_review.jsonl:1: "));
     }

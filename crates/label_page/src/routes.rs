@@ -3,13 +3,15 @@
 use super::action::{Action, Look, Refusal};
 use super::answer::{Answer, Shared};
 use super::app::App;
+use super::author::Author;
 use super::camera::CameraRequest;
+use super::carry;
 use super::change::material_name;
 use super::clock;
 use super::face_colors::FaceColors;
 use super::planned::PlannedFrame;
 use super::progress::views;
-use super::review::ReviewState;
+use super::review::{ReviewState, Said};
 use super::session::ActionError;
 use super::surfaces;
 use super::viewpoint::Viewpoint;
@@ -52,6 +54,7 @@ pub fn routes(app: Arc<App>) -> Router {
         .route("/api/annotate/events", get(events))
         .route("/api/annotate/progress", get(progress))
         .route("/api/annotate/history", get(history))
+        .route("/api/annotate/carried", get(carried))
         .route("/api/annotate/reviews", get(reviews))
         .route("/api/annotate/review", post(review))
         .route("/api/annotate/activity", post(activity))
@@ -103,10 +106,11 @@ async fn scene(State(app): Shared) -> Answer {
             "cameras": scene.cameras,
             "start_camera": start,
             "revision": standing.revision,
-            "can_undo": standing.undo_description.is_some(),
-            "can_redo": standing.redo_description.is_some(),
-            "undo_description": standing.undo_description,
-            "redo_description": standing.redo_description,
+            "can_undo": standing.all.undo.is_some(),
+            "can_redo": standing.all.redo.is_some(),
+            "undo_description": standing.all.undo,
+            "redo_description": standing.all.redo,
+            "people": standing.people,
             "next_instance": standing.next_instance,
             "has_face_colors": !matches!(scene.colors, FaceColors::Unknown),
             "has_suggestions": app.suggestions().iter().any(Option::is_some),
@@ -128,7 +132,7 @@ async fn pieces(State(app): Shared) -> Answer {
         let (pieces, list) = (session.pieces(), session.pieces().list());
         let material = |measure: &super::pieces::Measure| material_name(pieces, measure.material);
         Ok(Json(json!({
-            "revision": session.standing().revision,
+            "revision": session.revision(),
             "names": list.iter().map(|p| &p.name).collect::<Vec<_>>(),
             "parents": list.iter().map(|p| p.part).collect::<Vec<_>>(),
             "materials": list.iter().map(|p| material(&p.measure)).collect::<Vec<_>>(),
@@ -139,6 +143,7 @@ async fn pieces(State(app): Shared) -> Answer {
             "mins": list.iter().map(|p| p.measure.min).collect::<Vec<_>>(),
             "maxs": list.iter().map(|p| p.measure.max).collect::<Vec<_>>(),
             "geometry_keys": list.iter().map(|p| p.measure.geometry_key).collect::<Vec<_>>(),
+            "objects": list.iter().map(|p| app.scene().object_of(p.part)).collect::<Vec<_>>(),
             "suggestions": list.iter().map(|p| &app.suggestions()[p.part as usize]).collect::<Vec<_>>(),
         }))
         .into_response())
@@ -150,6 +155,9 @@ async fn pieces(State(app): Shared) -> Answer {
 #[serde(deny_unknown_fields)]
 struct EditRequest {
     client: String,
+    /// The name of the person, whose undo is their own.
+    #[serde(default)]
+    who: Option<String>,
     /// An id that was used before means that the client lost the answer to an edit that was done.
     #[serde(default)]
     id: Option<String>,
@@ -157,10 +165,10 @@ struct EditRequest {
 }
 
 async fn edit(State(app): Shared, body: Bytes) -> Answer {
-    let EditRequest { client, id, action } = parse(&body)?;
-    check_names(&[("client", Some(&client)), ("id", id.as_ref())])?;
+    let EditRequest { client, who, id, action } = parse(&body)?;
+    check_names(&[("client", Some(&client)), ("who", who.as_ref()), ("id", id.as_ref())])?;
     let change = beside(move || {
-        let change = app.act(&action, &client, id.as_deref())?;
+        let change = app.act(&action, &Author { client, who, id })?;
         // Spawned here: code after the `await` below does not run if the page disconnects meanwhile.
         tokio::spawn(save_later(Arc::downgrade(&app)));
         Ok(change)
@@ -184,6 +192,8 @@ fn check_names(names: &[(&str, Option<&String>)]) -> Result<(), ApiProblem> {
 #[serde(deny_unknown_fields)]
 struct ReviewRequest {
     client: String,
+    #[serde(default)]
+    who: Option<String>,
     pieces: Vec<u32>,
     state: ReviewState,
     #[serde(default)]
@@ -191,14 +201,22 @@ struct ReviewRequest {
 }
 
 async fn review(State(app): Shared, body: Bytes) -> Answer {
-    let ReviewRequest { client, pieces, state, note } = parse(&body)?;
-    check_names(&[("client", Some(&client))])?;
+    let ReviewRequest { client, who, pieces, state, note } = parse(&body)?;
+    check_names(&[("client", Some(&client)), ("who", who.as_ref())])?;
     if note.chars().count() > MAX_NOTE {
         return Err(ApiProblem::bad_request(format!("note is longer than {MAX_NOTE} characters"), "say it in fewer words"));
     }
     beside(move || {
-        app.review(&client, &pieces, state, &note)?;
+        app.review(&Author { client, who, id: None }, &pieces, state, &note)?;
         Ok(Json(reviewed(&app)).into_response())
+    })
+    .await
+}
+
+async fn carried(State(app): Shared) -> Answer {
+    beside(move || {
+        let rows = carry::rows(app.labels_folder()).map_err(|e| ApiProblem::failed(e, "labels are not affected"))?;
+        Ok(Json(rows).into_response())
     })
     .await
 }
@@ -211,8 +229,8 @@ async fn reviews(State(app): Shared) -> Answer {
 fn reviewed(app: &App) -> Vec<Value> {
     let (session, reviews) = (app.session(), app.reviews());
     let row = |(number, piece): (usize, &super::pieces::Piece)| {
-        let (state, note) = reviews.of(&piece.name)?;
-        Some(json!({ "piece": number, "state": state, "note": note }))
+        let Said { state, note, who } = reviews.of(&piece.name)?;
+        Some(json!({ "piece": number, "state": state, "note": note, "who": who }))
     };
     session.pieces().list().iter().enumerate().filter_map(row).collect()
 }
@@ -314,7 +332,7 @@ async fn progress(State(app): Shared) -> Answer {
         let seen = app.seen();
         let session = app.session();
         let mut progress: Value = seen.progress(session.pieces());
-        progress["revision"] = json!(session.standing().revision);
+        progress["revision"] = json!(session.revision());
         drop(session);
         progress["reviews"] = json!(reviewed(&app));
         Ok(Json(progress).into_response())
@@ -326,7 +344,7 @@ async fn history(State(app): Shared) -> Answer {
     beside(move || {
         let session = app.session();
         let [done, undone] = session.history(MAX_HISTORY);
-        Ok(Json(json!({ "done": done, "undone": undone, "revision": session.standing().revision })).into_response())
+        Ok(Json(json!({ "done": done, "undone": undone, "revision": session.revision() })).into_response())
     })
     .await
 }

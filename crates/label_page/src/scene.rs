@@ -112,7 +112,10 @@ impl AnnotatedScene {
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
         let labels_folder = labels.clone().unwrap_or_else(|| path.with_added_extension("labels"));
         let parts: Vec<String> = scene.parts.iter().map(|part| part.name.clone()).collect();
-        known = without_log::read(&labels_folder, &parts, cx)?.unwrap_or(known);
+        // With labels of an earlier version, what is in the folder may be of that version.
+        if options.carry.is_none() {
+            known = without_log::read(&labels_folder, &parts, cx)?.unwrap_or(known);
+        }
         Ok(Self {
             origin: path.display().to_string(),
             labels_folder,
@@ -167,6 +170,13 @@ impl AnnotatedScene {
             meters_per_unit: scale,
             has_label_stage,
         })
+    }
+
+    /// The parent objects of a part, outermost first, separated by slashes: those that the file states, else those that its name begins
+    /// with.
+    pub fn object_of(&self, part: u32) -> &str {
+        let around = self.around[part as usize].as_str();
+        if around.is_empty() { self.parts[part as usize].rsplit_once('/').map_or("", |(object, _)| object) } else { around }
     }
 
     /// Identifies the scene: a hash of the names of the parts and of how many faces each has.

@@ -1,8 +1,9 @@
 //! The state of an annotation: the pieces with their labels, and the edits that led to them.
 
 use super::action::{Action, Context, Look, Refusal};
+use super::author::Author;
 use super::camera::CameraRequest;
-use super::change::{Change, Standing};
+use super::change::{Change, Own, Standing};
 use super::clock;
 use super::log::{Log, LogError, Recorded};
 use super::pieces::Pieces;
@@ -11,7 +12,7 @@ use super::stroke::Picked;
 use super::viewpoint::Viewpoint;
 use enfilade_dataset::Classes;
 use enfilade_geometry::Bvh;
-use enfilade_label::annotation::{Before, Edit, Entry, numbers};
+use enfilade_label::annotation::{Before, Edit, Entry, Step, StepProblem, Steps, numbers};
 use enfilade_scene::PartLabel;
 use serde::Serialize;
 use std::collections::{HashMap, VecDeque};
@@ -28,29 +29,12 @@ pub struct Session {
     bvh: Arc<Bvh>,
     next_instance: i32,
     log: Log,
-    done: Vec<Done>,
-    undone: Vec<Undone>,
+    steps: Steps,
     revision: u64,
     /// Revisions of the edits that have an id.
     known: HashMap<String, u64>,
     /// The last changes by such edits.
     recent: VecDeque<Change>,
-}
-
-/// An edit, and what is needed to undo it.
-struct Done {
-    edit: Edit,
-    /// Labels of the pieces of a [`Edit::Label`] before.
-    before: Vec<PartLabel>,
-    /// When, in UTC.
-    time: String,
-}
-
-/// An edit that was undone.
-struct Undone {
-    edit: Edit,
-    /// When it was done, in UTC.
-    time: String,
 }
 
 /// An edit in the history of a scene.
@@ -60,6 +44,8 @@ pub struct HistoryRow {
     pub description: String,
     /// When it was done, in UTC.
     pub time: String,
+    /// The name of the person; none in logs of programs that knew no names.
+    pub who: Option<String>,
 }
 
 /// Why an action was not done.
@@ -99,8 +85,7 @@ impl Session {
             bvh,
             next_instance,
             log,
-            done: Vec::new(),
-            undone: Vec::new(),
+            steps: Steps::default(),
             revision: 0,
             known: HashMap::new(),
             recent: VecDeque::new(),
@@ -109,7 +94,7 @@ impl Session {
         for entry in entries {
             let problem = |problem: String, session: &Self| session.log.problem(entry.revision, problem);
             session.check(&entry.edit).map_err(|e| problem(e, &session))?;
-            session.perform(&entry);
+            session.perform(entry);
         }
         Ok((session, warning))
     }
@@ -119,22 +104,26 @@ impl Session {
         &self.pieces
     }
 
+    /// Number of edits ever made, undone ones and undoing included.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// Revision, and what can be undone and done again.
-    pub fn standing(&self) -> Standing<'_> {
-        Standing {
-            revision: self.revision,
-            undo_description: self.done.last().map(|done| done.edit.description()),
-            redo_description: self.undone.last().map(|undone| undone.edit.description()),
-            next_instance: self.next_instance,
-        }
+    pub fn standing(&self) -> Standing {
+        let own = |who: Option<&str>| {
+            let description = |step: Option<&Step>| step.map(|step| step.edit.description().to_string());
+            Own { undo: description(self.steps.to_undo(who)), redo: description(self.steps.to_redo(who)) }
+        };
+        // Who has done nothing yet can undo what has no name.
+        let people = self.steps.people().into_iter().chain([""]).map(|who| (who.to_string(), own(Some(who)))).collect();
+        Standing { revision: self.revision, all: own(None), people, next_instance: self.next_instance }
     }
 
     /// The last edits that were done, at most `most`, and those that can be done again; what undo and redo take next comes first.
     pub fn history(&self, most: usize) -> [Vec<HistoryRow>; 2] {
-        let row = |edit: &Edit, time: &str| HistoryRow { description: edit.description().into(), time: time.into() };
-        let done = self.done.iter().rev().take(most).map(|done| row(&done.edit, &done.time));
-        let undone = self.undone.iter().rev().take(most).map(|undone| row(&undone.edit, &undone.time));
-        [done.collect(), undone.collect()]
+        let row = |step: &Step| HistoryRow { description: step.edit.description().into(), time: step.time.clone(), who: step.who.clone() };
+        [self.steps.done().iter().rev().take(most).map(row).collect(), self.steps.undone().rev().take(most).map(row).collect()]
     }
 
     /// The visible faces and the pieces that a stroke would select.
@@ -163,33 +152,48 @@ impl Session {
 
     /// Does what a page asks for. On success the change is on the disk; on failure nothing has changed.
     ///
-    /// The change has the old revision if nothing had to change. An edit whose `id` was used before is not done twice: its first change
-    /// is returned.
+    /// The change has the old revision if nothing had to change. An edit whose id was used before is not done twice: its first change is
+    /// returned.
     ///
     /// # Errors
     /// When the action is wrong, cannot be done as things are, or cannot be logged.
-    pub fn act(&mut self, action: &Action, client: &str, id: Option<&str>) -> Result<Change, ActionError> {
-        if let Some(&revision) = id.and_then(|id| self.known.get(id)) {
+    pub fn act(&mut self, action: &Action, author: &Author) -> Result<Change, ActionError> {
+        let Author { client, who, id } = author.clone();
+        if let Some(&revision) = id.as_ref().and_then(|id| self.known.get(id)) {
             return self.told_again(revision).map_err(ActionError::Refused);
         }
         // The action becomes an edit that needs no further decision.
         let edit = match action {
-            Action::Undo if self.done.is_empty() => {
-                return Err(Refusal::conflict("there is nothing to undo", "everything is as it was in the beginning").into());
-            }
-            Action::Redo if self.undone.is_empty() => {
-                return Err(Refusal::conflict("there is nothing to do again", "only what was undone last can be done again").into());
-            }
-            Action::Undo => Some(Edit::Undo),
-            Action::Redo => Some(Edit::Redo),
+            Action::Undo { everyone } => Some(self.steps.undo_for(who.as_deref().filter(|_| !everyone)).map_err(not_undone)?),
+            Action::Redo { everyone } => Some(self.steps.redo_for(who.as_deref().filter(|_| !everyone)).map_err(not_redone)?),
             action => self.context().decide(action)?,
         };
-        let Some(edit) = edit else { return Ok(Change::default().told(None, client, &self.standing())) };
+        let Some(edit) = edit else { return Ok(Change::default().told(&self.standing(), &client, who, "Nothing to change".into())) };
+        self.check(&edit).map_err(|problem| Refusal::conflict(problem, "look at the history of the scene"))?;
         // The log is written before the pieces change: what was sent to pages survives a crash.
-        let (time, id) = (clock::iso(clock::now_s()), id.map(Into::into));
-        let entry = Entry { revision: self.revision + 1, time, client: client.into(), id, edit };
+        let entry = Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client, who, id, edit };
         self.log.append(&entry).map_err(ActionError::Log)?;
-        Ok(self.perform(&entry))
+        Ok(self.perform(entry))
+    }
+
+    /// Labels parts as they were in an earlier version of the scene, as the first edit.
+    ///
+    /// # Errors
+    /// When the edit cannot be logged.
+    pub fn carry(&mut self, labels: &[(u32, PartLabel)]) -> Result<(), LogError> {
+        let last = labels.iter().map(|(_, label)| i32::from(label.instance)).max().unwrap_or(0);
+        let (pieces, labels): (Vec<u32>, Vec<PartLabel>) = labels.iter().copied().unzip();
+        if pieces.is_empty() {
+            return Ok(());
+        }
+        let (semantic, instance) = labels.iter().map(|label| (label.semantic, label.instance)).unzip();
+        let description = format!("Carried over: the labels of {} parts", pieces.len());
+        let edit = Edit::Label { description, pieces, semantic, instance, next_instance: self.next_instance.max(last + 1) };
+        let entry =
+            Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client: "carry".into(), who: None, id: None, edit };
+        self.log.append(&entry)?;
+        self.perform(entry);
+        Ok(())
     }
 
     /// The change that an edit made when it came first.
@@ -204,30 +208,33 @@ impl Session {
         Context { pieces: &self.pieces, next_instance: self.next_instance, classes: &self.classes, bvh: &self.bvh }
     }
 
-    /// Checks that an edit of the log can be done.
+    /// Checks that an edit can be done.
     fn check(&self, edit: &Edit) -> Result<(), String> {
-        let steps = [self.done.len(), self.undone.len()];
-        edit.check(&Before { pieces: self.pieces.list().len(), piece_of_face: self.pieces.of_face(), steps })
+        edit.check(&Before { pieces: self.pieces.list().len(), piece_of_face: self.pieces.of_face(), steps: &self.steps })
     }
 
-    /// Does an edit that was checked or decided here.
-    fn perform(&mut self, entry: &Entry) -> Change {
-        self.revision += 1;
-        let change = match &entry.edit {
-            Edit::Undo => self.done.pop().map(|done| {
-                let change = self.revert(&done);
-                self.undone.push(Undone { edit: done.edit, time: done.time });
-                change
-            }),
-            Edit::Redo => self.undone.pop().map(|undone| self.apply(undone.edit, &entry.time)),
+    /// Does an edit that was checked.
+    fn perform(&mut self, entry: Entry) -> Change {
+        let Entry { revision, time, client, who, id, edit } = entry;
+        self.revision = revision;
+        let (change, description) = match edit {
+            Edit::Undo | Edit::UndoOf { .. } => self.undo(&edit, who.clone()),
+            Edit::Redo | Edit::RedoOf { .. } => match self.steps.redo(&edit) {
+                Some(step) => {
+                    let (description, of) = (format!("Done again: {}", step.edit.description()), step.who.clone());
+                    (Change { of, ..self.apply(Step { revision, time, ..step }) }, description)
+                }
+                None => (Change::default(), String::new()),
+            },
             edit => {
-                self.undone.clear();
-                Some(self.apply(edit.clone(), &entry.time))
+                let description = edit.description().to_string();
+                let step = Step { edit, revision, begun: revision, time, who: who.clone(), before: Vec::new(), first_new: 0 };
+                (self.apply(step), description)
             }
         };
-        let change = change.unwrap_or_default().told(Some(&entry.edit), &entry.client, &self.standing());
-        if let Some(id) = &entry.id {
-            self.known.insert(id.clone(), self.revision);
+        let change = change.told(&self.standing(), &client, who, description);
+        if let Some(id) = id {
+            self.known.insert(id, self.revision);
             self.recent.push_back(change.clone());
             if self.recent.len() > KEPT {
                 self.recent.pop_front();
@@ -236,13 +243,20 @@ impl Session {
         change
     }
 
-    fn apply(&mut self, edit: Edit, time: &str) -> Change {
-        let mut before = Vec::new();
-        let change = match &edit {
+    fn undo(&mut self, edit: &Edit, by: Option<String>) -> (Change, String) {
+        let Some(step) = self.steps.undo(edit, by, self.revision) else { return (Change::default(), String::new()) };
+        let description = format!("Undone: {}", step.edit.description());
+        (Change { of: step.who.clone(), ..revert(&mut self.pieces, step) }, description)
+    }
+
+    fn apply(&mut self, mut step: Step) -> Change {
+        step.first_new = self.pieces.list().len() as u32;
+        step.before.clear();
+        let change = match &step.edit {
             Edit::Label { pieces, semantic, instance, next_instance, .. } => {
                 self.next_instance = self.next_instance.max(*next_instance);
                 for ((&piece, &semantic), &instance) in pieces.iter().zip(semantic).zip(instance) {
-                    before.push(self.pieces.list()[piece as usize].label);
+                    step.before.push(self.pieces.list()[piece as usize].label);
                     self.pieces.set_label(piece, PartLabel { semantic, instance });
                 }
                 Change::labels(&self.pieces, pieces)
@@ -253,25 +267,51 @@ impl Session {
                 self.pieces.split(*piece, names, &groups);
                 Change::split(&self.pieces, *piece, groups.len())
             }
-            Edit::Undo | Edit::Redo => Change::default(),
+            _ => Change::default(),
         };
-        self.done.push(Done { edit, before, time: time.into() });
+        self.steps.push(step);
         change
     }
+}
 
-    fn revert(&mut self, done: &Done) -> Change {
-        match &done.edit {
-            Edit::Label { pieces, .. } => {
-                pieces.iter().zip(&done.before).rev().for_each(|(&piece, &label)| self.pieces.set_label(piece, label));
-                Change::labels(&self.pieces, pieces)
-            }
-            Edit::Split { piece, names, .. } => {
-                let first = self.pieces.list().len() - names.len();
-                let moved = self.pieces.list()[first..].iter().flat_map(|piece| piece.faces.iter().copied()).collect();
-                self.pieces.join(*piece, names.len());
-                Change::join(&self.pieces, *piece, first as u32, names.len(), moved)
-            }
-            Edit::Undo | Edit::Redo => Change::default(),
+fn revert(pieces: &mut Pieces, step: &Step) -> Change {
+    match &step.edit {
+        Edit::Label { pieces: labelled, .. } => {
+            labelled.iter().zip(&step.before).rev().for_each(|(&piece, &label)| pieces.set_label(piece, label));
+            Change::labels(pieces, labelled)
+        }
+        Edit::Split { piece, names, .. } => {
+            let first = pieces.list().len() - names.len();
+            let moved = pieces.list()[first..].iter().flat_map(|piece| piece.faces.iter().copied()).collect();
+            pieces.join(*piece, names.len());
+            Change::join(pieces, *piece, first as u32, names.len(), moved)
+        }
+        _ => Change::default(),
+    }
+}
+
+/// Why nothing is undone.
+fn not_undone(problem: StepProblem) -> Refusal {
+    match problem {
+        StepProblem::Nothing => Refusal::conflict("there is nothing to undo", "what others did is undone in the history"),
+        StepProblem::Later { what, later, who } => {
+            let error = format!("{what:?} cannot be undone: {} has changed the same since ({later})", person(&who));
+            Refusal::conflict(error, "go back in the history, which undoes the later edits too, or label it anew")
         }
     }
+}
+
+/// Why nothing is done again.
+fn not_redone(problem: StepProblem) -> Refusal {
+    match problem {
+        StepProblem::Nothing => Refusal::conflict("there is nothing to do again", "only what was undone last can be done again"),
+        StepProblem::Later { what, later, who } => {
+            let error = format!("{what:?} cannot be done again: {} has changed the same since ({later})", person(&who));
+            Refusal::conflict(error, "label it anew")
+        }
+    }
+}
+
+fn person(who: &str) -> &str {
+    if who.is_empty() { "somebody" } else { who }
 }

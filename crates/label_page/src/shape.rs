@@ -29,7 +29,18 @@ impl ShapeInvariants {
         Self { faces, lengths_m: [corners.map(edges).sum(), area.sqrt(), spread.sqrt()] }
     }
 
-    fn is_like(&self, other: &Self) -> bool {
+    /// The number of faces; and the sum of all edges, the root of the area, and the root mean square distance from the mean, metres.
+    pub fn numbers(&self) -> (usize, [f64; 3]) {
+        (self.faces, self.lengths_m)
+    }
+
+    /// From its numbers.
+    pub fn of_numbers(faces: usize, lengths_m: [f64; 3]) -> Self {
+        Self { faces, lengths_m }
+    }
+
+    /// True for the same geometry, at any position and orientation.
+    pub fn is_like(&self, other: &Self) -> bool {
         let pairs = self.lengths_m.iter().zip(&other.lengths_m);
         self.faces == other.faces && pairs.into_iter().all(|(a, b)| (a - b).abs() <= TOLERANCE * a.max(*b))
     }

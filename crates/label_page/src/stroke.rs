@@ -12,6 +12,8 @@ const SAMPLES_PER_PIXEL: f64 = 4.0;
 const MAX_IMAGE_COORDINATE: f64 = 65_536.0;
 /// Longest stroke, in points along it.
 const MAX_SAMPLES: f64 = 16e6;
+/// Pixels of the largest rectangle: all of a window of 5120 × 2880, with some room.
+const MAX_PIXELS: u64 = 1 << 24;
 /// Rows of a rectangle that are drawn at once: whole tiles of the visibility buffer.
 const BAND_ROWS: u32 = 64;
 
@@ -58,7 +60,19 @@ impl StrokeShape {
             return Err("shape.pen is empty; expected at least one point".into());
         }
         if let Self::Rectangle(_) = self {
-            return Ok(rectangle(points[0], points[1], camera));
+            let covered = rectangle(points[0], points[1], camera);
+            if let Covered::Rectangle([left, top], [right, bottom]) = covered {
+                let pixels = u64::from(right - left + 1) * u64::from(bottom - top + 1);
+                if pixels > MAX_PIXELS {
+                    let millions = |pixels: u64| pixels >> 20;
+                    return Err(format!(
+                        "shape.rectangle covers {} million pixels; expected at most {}: ask for a smaller image",
+                        millions(pixels),
+                        millions(MAX_PIXELS)
+                    ));
+                }
+            }
+            return Ok(covered);
         }
         let lengths = points.windows(2).map(|pair| f64::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
         let samples = lengths.sum::<f64>() * SAMPLES_PER_PIXEL;

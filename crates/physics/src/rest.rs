@@ -1,5 +1,5 @@
 //! What would not stay where it is: things that are in each other are joined, what hovers is lowered, and what falls, tips or is
-//! pushed is fixed.
+//! pushed is fixed, to what is free and bears it or else to the world.
 //!
 //! The simulation of `[[object]]` (`enfilade_compose::unrest`) judges, with the pieces that are written. It runs for a short time first, so that what
 //! hangs in the air is fixed before it falls on something else.
@@ -42,7 +42,11 @@ pub(crate) fn settle(groups: &mut [Group], parts: &mut [Vec<Piece>], notes: &mut
     }
     fix(groups, parts, STAYS_S, STEADY_M, &mut fallen);
     if !fallen.is_empty() {
-        notes.push(format!("{} things are fixed because they would not stay by themselves: {}", fallen.len(), told(&fallen)));
+        notes.push(format!(
+            "{} things are fixed, to what bears them, because they would not stay by themselves: {}",
+            fallen.len(),
+            told(&fallen)
+        ));
     }
 }
 
@@ -55,10 +59,22 @@ fn fix(groups: &mut [Group], parts: &[Vec<Piece>], seconds: f64, most_m: f64, fa
             break;
         }
         for number in undermost(groups, parts, &moves) {
+            groups[number].parent = bearer(groups, parts, number);
             groups[number].joint = Hold::Fixed;
             fallen.insert(groups[number].name.clone());
         }
     }
+}
+
+/// The heaviest free group on which a group stands, if it does on any: fixed to the world it would press on that.
+fn bearer(groups: &[Group], parts: &[Vec<Piece>], number: usize) -> Option<usize> {
+    let own = solids(&groups[number], parts);
+    let near = |other: &usize| {
+        let two = [own.clone(), solids(&groups[*other], parts)];
+        bottom(&two[1]) < bottom(&two[0]) && !overlaps(&two, NEAR_M).is_empty()
+    };
+    let below = (0..groups.len()).filter(|other| *other != number && groups[*other].joint == Hold::Free);
+    below.filter(near).max_by(|a, b| mass_kg(&groups[*a], parts).total_cmp(&mass_kg(&groups[*b], parts)))
 }
 
 /// Moves a group and what is joined to it.
@@ -77,8 +93,7 @@ fn shift(groups: &mut [Group], parts: &mut [Vec<Piece>], number: usize, by: DVec
 /// Groups among some that stand on no other of them: what stands on something that falls need not fall itself.
 fn undermost(groups: &[Group], parts: &[Vec<Piece>], some: &[usize]) -> Vec<usize> {
     let all: Vec<Vec<Solid>> = some.iter().map(|number| solids(&groups[*number], parts)).collect();
-    let bottom = |thing: &Vec<Solid>| thing.iter().flat_map(|solid| &solid.corners).map(|corner| corner.z).fold(f64::INFINITY, f64::min);
-    let bottoms: Vec<f64> = all.iter().map(bottom).collect();
+    let bottoms: Vec<f64> = all.iter().map(|thing| bottom(thing)).collect();
     let above = |[a, b]: [usize; 2]| if bottoms[a] > bottoms[b] { a } else { b };
     let borne: BTreeSet<usize> = overlaps(&all, LOWERED_M).into_iter().map(above).collect();
     (0..some.len()).filter(|number| !borne.contains(number)).map(|number| some[number]).collect()
@@ -87,8 +102,7 @@ fn undermost(groups: &[Group], parts: &[Vec<Piece>], some: &[usize]) -> Vec<usiz
 /// Fixes free things that are in others to these: the lighter one to the heavier, or to the world where the other is fixed.
 fn join(groups: &mut [Group], parts: &[Vec<Piece>], notes: &mut Vec<String>) {
     let all: Vec<Vec<Solid>> = groups.iter().map(|group| solids(group, parts)).collect();
-    let mass = |group: &Group| -> f64 { pieces(group, parts).map(|piece| piece.mass_kg).sum() };
-    let masses: Vec<f64> = groups.iter().map(mass).collect();
+    let masses: Vec<f64> = groups.iter().map(|group| mass_kg(group, parts)).collect();
     let mut joined = BTreeSet::new();
     let mut pairs = overlaps(&all, -DEEP_M);
     // The heaviest bearers first, so that what is joined to something hangs on what stays itself.
@@ -147,6 +161,15 @@ pub(crate) fn touching(groups: &[Group], parts: &[Vec<Piece>]) -> Vec<[usize; 2]
 
 fn pieces<'p>(group: &'p Group, parts: &'p [Vec<Piece>]) -> impl Iterator<Item = &'p Piece> {
     group.parts.iter().flat_map(move |part| &parts[*part as usize])
+}
+
+fn mass_kg(group: &Group, parts: &[Vec<Piece>]) -> f64 {
+    pieces(group, parts).map(|piece| piece.mass_kg).sum()
+}
+
+/// Height of the lowest corner.
+fn bottom(thing: &[Solid]) -> f64 {
+    thing.iter().flat_map(|solid| &solid.corners).map(|corner| corner.z).fold(f64::INFINITY, f64::min)
 }
 
 pub(crate) fn solids(group: &Group, parts: &[Vec<Piece>]) -> Vec<Solid> {

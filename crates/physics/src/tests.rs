@@ -91,6 +91,18 @@ fn room() -> Room {
 }
 
 #[test]
+fn what_would_fall_is_fixed_to_the_free_thing_that_bears_it() {
+    // Its middle is 0.1 m beyond the crate's edge.
+    let Room { scene, labels } = room().with("ruler", "oak", Vec3::new(0.3, 0.02, 0.005), DVec3::new(0.15, 0.1, 0.5), 40, 6);
+    let model = simulated(&scene, &labels).unwrap();
+    let index = |name: &str| model.bodies.iter().position(|body| body.name == name).unwrap();
+    let ruler = &model.bodies[index("ruler")];
+    assert_eq!((ruler.joint.kind, ruler.parent), (JointKind::Fixed, Some(index("crate"))));
+    assert_eq!(model.bodies[index("crate")].joint.kind, JointKind::Free);
+    assert_eq!(model.bodies[index("lamp")].parent, None);
+}
+
+#[test]
 fn a_joint_ends_before_what_is_in_the_way_and_what_lies_in_a_drawer_goes_along() {
     let (wide, open) = (Vec3::new(0.1, 0.1, 1.0), [-1.5, 0.0]);
     // The post's near side is 0.3 m before the closed door, whose edge is 0.6 m from the hinge. The pencil lies on the drawer.

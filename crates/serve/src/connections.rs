@@ -135,8 +135,9 @@ async fn talk(
 ) {
     let _ = stream.set_nodelay(true); // it fails where the connection is gone already
     let io = TokioIo::new(Watched::new(stream, Arc::clone(&line)));
-    let respond = service_fn(|request: Request<Incoming>| {
+    let respond = service_fn(|mut request: Request<Incoming>| {
         let (app, turn, is_crowded) = (app.clone(), line.turn(), Arc::clone(&is_crowded));
+        request.extensions_mut().insert(Arc::clone(&line));
         async move {
             let mut response = app.oneshot(request).await?;
             if is_crowded.load(Relaxed) {

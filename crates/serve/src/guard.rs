@@ -123,17 +123,22 @@ fn query_token(uri: &Uri) -> Option<&str> {
     uri.query()?.split('&').find_map(|pair| pair.strip_prefix("token="))
 }
 
+/// A path as a target on this host: with two slashes in front it would name another host, and browsers take a backslash for a slash.
+fn on_this_host(path: &str) -> String {
+    format!("/{}", path.trim_start_matches(['/', '\\']))
+}
+
 /// Refuses a request, or moves a token from the address into a cookie, or lets the request through.
 pub(super) async fn check(State(guard): State<Arc<Guard>>, request: Request<Body>, next: Next) -> Response {
     if let Err(problem) = guard.allows(request.method(), request.uri(), request.headers()) {
-        return problem.into_response();
+        return problem.answer_to(request.headers());
     }
     if let (Some(token), true, &Method::GET) = (query_token(request.uri()), guard.token.is_some(), request.method()) {
         let name = cookie_name(text(request.headers(), header::HOST));
         let cookie = format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/");
         let rest: Vec<&str> = request.uri().query().unwrap_or("").split('&').filter(|pair| !pair.starts_with("token=")).collect();
         let query = if rest.is_empty() { String::new() } else { format!("?{}", rest.join("&")) };
-        let target = format!("{}{query}", request.uri().path());
+        let target = format!("{}{query}", on_this_host(request.uri().path()));
         return ([(header::SET_COOKIE, cookie)], Redirect::temporary(&target)).into_response();
     }
     let mut response = next.run(request).await;
@@ -204,6 +209,23 @@ mod tests {
         assert_eq!(first.headers()[header::LOCATION], "/a?x=1");
         let cookie = first.headers()[header::SET_COOKIE].to_str().unwrap().split(';').next().unwrap().to_string();
         assert_eq!(answer(&guard, "GET", "/a", &[host, ("cookie", &cookie)]).await.status(), StatusCode::OK);
+        for path in ["//evil.example/", "///evil.example/", "/"] {
+            let moved = answer(&guard, "GET", &format!("{path}?token={token}"), &[host]).await;
+            let target = moved.headers()[header::LOCATION].to_str().unwrap();
+            assert!(target.starts_with('/') && !target.starts_with("//"), "{path}: {target}");
+        }
+    }
+
+    #[tokio::test]
+    async fn whom_a_browser_shows_the_refusal_reads_a_page() {
+        let guard = Guard::new(Ipv4Addr::UNSPECIFIED.into(), false).unwrap();
+        let kind = async |headers: &[(&str, &str)]| {
+            let response = answer(&guard, "GET", "/a", headers).await;
+            assert_eq!(response.status(), StatusCode::FORBIDDEN);
+            response.headers()[header::CONTENT_TYPE].to_str().unwrap().to_string()
+        };
+        assert!(kind(&[("host", "10.0.0.1"), ("accept", "text/html,*/*;q=0.8")]).await.starts_with("text/html"));
+        assert_eq!(kind(&[("host", "10.0.0.1"), ("accept", "*/*")]).await, "application/json");
     }
 
     #[tokio::test]

@@ -5,6 +5,7 @@
 //! `/shared/` and `/vendor/`; the crate of each page embeds its own. [`DisplayOrder`] is a scene as `web/shared/stage3d` draws it.
 
 mod addresses;
+mod bodies;
 mod connections;
 mod display_order;
 mod files;
@@ -33,9 +34,6 @@ use files::PageFiles;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
-
-/// Largest body of a request, bytes: a stroke of a million pixels fits.
-const MAX_BODY_BYTES: usize = 16 << 20;
 
 /// When the program is asked to end, jobs have this long after the last connection has ended.
 const PATIENCE: Duration = Duration::from_millis(100);
@@ -110,7 +108,8 @@ pub fn guarded(app: Router, page: Page, guard: Guard) -> Router {
     let files = Arc::new(PageFiles::of(page));
     app.route("/", get(move || async move { Redirect::temporary(page.address) }))
         .fallback(move |uri: Uri, headers: HeaderMap| files.clone().answer(uri, headers))
-        .layer(DefaultBodyLimit::max(MAX_BODY_BYTES))
+        .layer(DefaultBodyLimit::disable())
+        .layer(axum::middleware::from_fn(bodies::whole))
         .layer(axum::middleware::from_fn(transfer::compress_and_tag))
         .layer(axum::middleware::from_fn_with_state(Arc::new(guard), guard::check))
 }

@@ -5,7 +5,7 @@ use hyper::body::{Body as HttpBody, Frame, SizeHint};
 use std::io;
 use std::pin::Pin;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
@@ -19,13 +19,21 @@ pub(super) struct Line {
     moved_ms: AtomicU64,
     /// Requests whose answers are not written yet.
     turns: AtomicUsize,
+    /// True while the body of a request is on its way.
+    is_arriving: AtomicBool,
     close: Notify,
 }
 
 impl Default for Line {
     /// A connection that has just begun.
     fn default() -> Self {
-        Self { begun: Instant::now(), moved_ms: AtomicU64::new(0), turns: AtomicUsize::new(0), close: Notify::new() }
+        Self {
+            begun: Instant::now(),
+            moved_ms: AtomicU64::new(0),
+            turns: AtomicUsize::new(0),
+            is_arriving: AtomicBool::new(false),
+            close: Notify::new(),
+        }
     }
 }
 
@@ -35,9 +43,15 @@ impl Line {
         self.begun.elapsed().saturating_sub(Duration::from_millis(self.moved_ms.load(Relaxed)))
     }
 
-    /// True while a request is being answered.
+    /// True while a request that has come whole is being answered.
     pub fn is_answering(&self) -> bool {
-        self.turns.load(Relaxed) > 0
+        self.turns.load(Relaxed) > 0 && !self.is_arriving.load(Relaxed)
+    }
+
+    /// The body of a request is on its way, until what is returned is dropped.
+    pub fn arriving(self: &Arc<Self>) -> Arriving {
+        self.is_arriving.store(true, Relaxed);
+        Arriving(Arc::clone(self))
     }
 
     /// Asks for the end of the connection.
@@ -58,6 +72,15 @@ impl Line {
 
     fn moved(&self) {
         self.moved_ms.store(self.begun.elapsed().as_millis() as u64, Relaxed);
+    }
+}
+
+/// A body that is on its way.
+pub(super) struct Arriving(Arc<Line>);
+
+impl Drop for Arriving {
+    fn drop(&mut self) {
+        self.0.is_arriving.store(false, Relaxed);
     }
 }
 

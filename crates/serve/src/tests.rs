@@ -150,6 +150,23 @@ async fn many_who_say_nothing_keep_nobody_out() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn bodies_that_drip_keep_nobody_out() {
+    let server = server(limits()).await;
+    let head = "POST /count HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 4000\r\n\r\n\"";
+    let dripping: Vec<TcpStream> = (0..100)
+        .map(|_| {
+            let mut stream = server.connect();
+            stream.write_all(head.as_bytes()).unwrap();
+            stream
+        })
+        .collect();
+    let begin = Instant::now();
+    assert_eq!(server.get("/short", "").0, 200);
+    assert!(begin.elapsed() < Duration::from_secs(2), "{:?}", begin.elapsed());
+    drop(dripping);
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_head_that_does_not_come_ends_the_connection() {
     let server = server(Limits { head: Duration::from_millis(200), ..limits() }).await;
     for beginning in ["", "GET /short HTTP/1.1\r\nHost: localhost\r\n", "GET /short HTTP/1.1\r\nHost: localhost\r\n\r\n"] {

@@ -25,10 +25,13 @@ impl Viewer {
     pub(super) fn allow(&self, path: &Path) -> Result<(), ApiProblem> {
         // A path that does not exist is harmless; reading it will report that it is missing.
         let Ok(real) = std::fs::canonicalize(path) else { return Ok(()) };
-        if real.starts_with(&self.root) {
-            return Ok(());
-        }
         let inside = path.strip_prefix(self.dataset.root()).unwrap_or(path);
+        if real.starts_with(&self.root) {
+            // Opening a pipe would wait for somebody who writes into it.
+            let waits = std::fs::metadata(&real).is_ok_and(|data| !data.is_file() && !data.is_dir());
+            let error = || format!("{} is neither a file nor a folder", inside.display());
+            return if waits { Err(ApiProblem::forbidden(error(), "remove it from the dataset")) } else { Ok(()) };
+        }
         let error = format!("{} leads out of the dataset's folder", inside.display());
         Err(ApiProblem::forbidden(error, "copy what the symbolic link leads to into the dataset, or open the folder that has it"))
     }

@@ -20,7 +20,11 @@ pub async fn dataset(State(viewer): State<Arc<Viewer>>, headers: HeaderMap) -> R
 
 impl Viewer {
     fn catalogue(&self) -> Result<Value, ApiProblem> {
-        let scenes = self.dataset.scenes().map_err(problem)?;
+        let scenes = match self.dataset.scenes() {
+            // A run that has just begun has made none yet.
+            Err(error) if error.is_not_found() && self.root.is_dir() => Vec::new(),
+            scenes => scenes.map_err(problem)?,
+        };
         // A scene whose folder has an unsafe name cannot be requested; the page reports it instead of hiding it.
         let (named, unnamed): (Vec<String>, Vec<String>) = scenes.into_iter().partition(|name| check_name("scene name", name).is_ok());
         let name = self.root.file_name().map_or_else(|| self.root.display().to_string(), |name| name.to_string_lossy().into_owned());

@@ -33,8 +33,10 @@ const MOST_TEXT_BYTES: u64 = 64 << 20;
 /// Bytes of a file that are in memory while it is sent.
 const CHUNK_BYTES: u64 = 256 << 10;
 
-/// A dataset may come from strangers, so its pages may run no scripts and load nothing from other machines.
-const PAGE_POLICY: &str = "sandbox; default-src 'none'; img-src 'self' data:; media-src 'self'; style-src 'unsafe-inline' 'self'";
+/// A dataset may come from strangers, so its pages may run no scripts and load nothing from other machines. They count as of this server, so
+/// that browsers send the token with their pictures and links.
+const PAGE_POLICY: &str =
+    "sandbox allow-same-origin; default-src 'none'; img-src 'self' data:; media-src 'self'; style-src 'unsafe-inline' 'self'";
 
 /// `GET /api/view/file/{path}`: a page, picture or table of the dataset, by its path in the dataset's folder.
 pub async fn file(State(viewer): State<Arc<Viewer>>, Path(path): Path<String>) -> Result<Response, ApiProblem> {

@@ -29,7 +29,7 @@ impl Weight for PairsOfScene {
 }
 
 impl PairsOfScene {
-    /// The frames that see what a frame shows, or the other way around, those with the largest overlap first.
+    /// The frames that see what a frame shows, or the other way around, those with the largest overlap first: the smaller of both shares.
     pub fn partners(&self, place: &FramePlace) -> Result<Value, ApiProblem> {
         let frames = &self.covisibility.frames;
         let Some(here) = frames.iter().position(|one| one.camera == place.camera && one.frame == place.frame) else {
@@ -37,8 +37,10 @@ impl PairsOfScene {
             return Err(ApiProblem::not_found(error, "run enfilade make OUT pairs again"));
         };
         let shares = |there: usize| [self.covisibility.share(here, there), self.covisibility.share(there, here)];
-        let overlap = |there: usize| shares(there).into_iter().filter(|share| share.is_finite()).fold(0.0, f32::max);
-        let mut others: Vec<usize> = (0..frames.len()).filter(|&there| there != here && overlap(there) > 0.0).collect();
+        let known = |there: usize| shares(there).into_iter().filter(|share| share.is_finite());
+        // The smaller share counts: a picture of a detail is seen whole by a wide one, and shows little of it.
+        let overlap = |there: usize| known(there).reduce(f32::min).unwrap_or(0.0);
+        let mut others: Vec<usize> = (0..frames.len()).filter(|&there| there != here && known(there).any(|share| share > 0.0)).collect();
         others.sort_by(|&a, &b| overlap(b).total_cmp(&overlap(a)));
         let count = others.len();
         let partner = |there: usize| {

@@ -431,6 +431,21 @@ async fn symbolic_links_out_of_the_dataset_are_refused() {
     assert_eq!(fine.status(), StatusCode::OK);
 }
 
+#[cfg(unix)]
+#[tokio::test]
+async fn pipes_in_the_dataset_are_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let ours = dataset(folder.path());
+    let color = ours.layout().layer("room", "cam_00", 0, Layer::Color);
+    std::fs::remove_file(&color).unwrap();
+    for pipe in [&folder.path().join("pipe.html"), &color] {
+        assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    }
+    for address in ["/api/view/file/pipe.html", "/api/view/layer/room/cam_00/0/color"] {
+        assert_eq!(ask(folder.path(), address, &[]).await.status(), StatusCode::FORBIDDEN, "{address}");
+    }
+}
+
 #[tokio::test]
 async fn positions_are_shown_in_metres_whatever_the_unit() {
     let folder = tempfile::tempdir().unwrap();

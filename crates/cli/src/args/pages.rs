@@ -40,6 +40,9 @@ pub struct AnnotateArgs {
     /// The folder of labels [default: the dataset's mesh folder, or FILE.labels beside the scene file]
     #[arg(long, value_name = "DIR")]
     pub labels: Option<PathBuf>,
+    /// Begin with the labels of an earlier version of the scene, by names and shapes; DIR is the folder of labels of that version
+    #[arg(long, value_name = "DIR")]
+    pub carry: Option<PathBuf>,
     /// A list of classes in the form of Hypersim's semantic_label_descs.csv [default: NYU40]
     #[arg(long, value_name = "FILE")]
     pub classes: Option<PathBuf>,

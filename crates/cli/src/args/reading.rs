@@ -29,6 +29,14 @@ pub struct CamerasArg {
 }
 
 impl CamerasArg {
+    /// The dataset in `folder` with these cameras, also if nothing has been made there yet.
+    pub fn open_or_await(&self, folder: &Path) -> Result<Dataset, DatasetError> {
+        match self.open(folder) {
+            Err(DatasetError::NotADataset { .. }) => Dataset::awaited(folder),
+            opened => opened,
+        }
+    }
+
     /// The dataset in `folder` with these cameras.
     pub fn open(&self, folder: &Path) -> Result<Dataset, DatasetError> {
         let dataset = Dataset::open(folder)?;

@@ -6,9 +6,9 @@
 use super::camera::name;
 use super::layer::Layer;
 use super::stage::Prim;
+use super::state::{Piece, State};
 use super::stretch::Stretch;
 use super::value::Value;
-use super::walk::{Piece, State};
 use super::xform::Xform;
 use crate::assembly::Assembly;
 use crate::motion::{Changing, Moved, Shapes, length_in, shapes};

@@ -55,6 +55,7 @@ mod shapes;
 mod skeleton;
 mod skin;
 mod stage;
+mod state;
 mod stretch;
 mod surface;
 mod text;

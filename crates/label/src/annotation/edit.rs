@@ -35,6 +35,16 @@ pub enum Edit {
     Undo,
     /// The last edit that was undone was done again.
     Redo,
+    /// An edit that was not the last one was undone: that of one person, below later ones of others.
+    UndoOf {
+        /// The revision at which it was last done.
+        revision: u64,
+    },
+    /// An edit that was not undone last was done again.
+    RedoOf {
+        /// The revision at which it was last done.
+        revision: u64,
+    },
 }
 
 impl Edit {
@@ -42,47 +52,16 @@ impl Edit {
     pub fn description(&self) -> &str {
         match self {
             Self::Label { description, .. } | Self::Split { description, .. } => description,
-            Self::Undo => "Undo",
-            Self::Redo => "Redo",
+            Self::Undo | Self::UndoOf { .. } => "Undo",
+            Self::Redo | Self::RedoOf { .. } => "Redo",
         }
     }
 }
 
-/// The state before an edit, against which it is checked.
-pub struct Before<'a> {
-    /// Number of pieces.
-    pub pieces: usize,
-    /// The piece of every face.
-    pub piece_of_face: &'a [u32],
-    /// Number of edits that can be undone, and that can be redone.
-    pub steps: [usize; 2],
-}
-
 impl Edit {
-    /// Checks that an edit of the log can be done.
-    ///
-    /// # Errors
-    /// The problem.
-    pub fn check(&self, before: &Before<'_>) -> Result<(), String> {
-        let [undoable, redoable] = before.steps;
-        match self {
-            Self::Undo if undoable == 0 => Err("there is nothing to undo".into()),
-            Self::Redo if redoable == 0 => Err("there is nothing to do again".into()),
-            Self::Undo | Self::Redo => Ok(()),
-            Self::Label { pieces, semantic, instance, .. } => {
-                let fits = semantic.len() == pieces.len() && instance.len() == pieces.len();
-                let known = pieces.iter().all(|&piece| (piece as usize) < before.pieces);
-                if fits && known { Ok(()) } else { Err("the labels do not fit the pieces".into()) }
-            }
-            Self::Split { piece, names, faces, .. } => {
-                let known = (*piece as usize) < before.pieces && names.len() == faces.len();
-                let of_face = before.piece_of_face;
-                let its_own = |runs: &Vec<[u32; 2]>| {
-                    numbers(runs, of_face.len()).is_some_and(|faces| faces.iter().all(|&face| of_face[face as usize] == *piece))
-                };
-                if known && faces.iter().all(its_own) { Ok(()) } else { Err("the faces are not of the piece that is split".into()) }
-            }
-        }
+    /// True for edits that only logs of [`FORMAT_OF_PEOPLE`](super::FORMAT_OF_PEOPLE) have.
+    pub fn is_of_people(&self) -> bool {
+        matches!(self, Self::UndoOf { .. } | Self::RedoOf { .. })
     }
 }
 

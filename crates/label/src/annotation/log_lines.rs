@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 /// The first line names its own format.
 pub const FORMAT: &str = "enfilade annotation log 1";
+/// The format of logs in which a person's edit was undone below later ones of others. It is as long as [`FORMAT`].
+pub const FORMAT_OF_PEOPLE: &str = "enfilade annotation log 2";
 
 /// Fields of the first line in logs of every format.
 #[derive(Deserialize)]
@@ -40,6 +42,9 @@ pub struct Entry {
     pub time: String,
     /// The client that requested it.
     pub client: String,
+    /// The name of the person; logs of programs that knew no names have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub who: Option<String>,
     /// The client's name for it, by which a repeated request is recognised. Edits that came without one have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
@@ -81,7 +86,7 @@ pub fn parse(bytes: &[u8]) -> Result<Option<(Header, Vec<Entry>)>, LogProblem> {
     let first = lines.next().unwrap_or_default();
     let no_log = |e: serde_json::Error| LogProblem::Line { line: 1, problem: format!("not the beginning of a log: {e}") };
     let Form { format: found } = serde_json::from_slice(first).map_err(no_log)?;
-    if found != FORMAT {
+    if found != FORMAT && found != FORMAT_OF_PEOPLE {
         return Err(LogProblem::Format { found });
     }
     let header: Header = serde_json::from_slice(first).map_err(no_log)?;

@@ -4,14 +4,18 @@
 //! that doing it again gives the same labels. [`Annotation::read`] does them again. What is labelled is called a piece: a part of the scene,
 //! or a piece of a part that was split.
 
+mod before;
 mod edit;
 mod labelled;
 mod log_lines;
 mod replay;
+mod steps;
 
-pub use edit::{Before, Edit, numbers, runs};
+pub use before::Before;
+pub use edit::{Edit, numbers, runs};
 pub use labelled::Annotation;
-pub use log_lines::{Entry, FORMAT, Header, LogProblem, parse};
+pub use log_lines::{Entry, FORMAT, FORMAT_OF_PEOPLE, Header, LogProblem, parse};
+pub use steps::{Step, StepProblem, Steps};
 
 use enfilade_dataset::{ANNOTATION_LOG, DatasetError, MeshFiles, scene_hash};
 use enfilade_scene::{Labels, PartId, Scene};
@@ -75,11 +79,20 @@ impl Annotation {
         if scene_hash(parts) != header.scene_hash || header.parts != scene.parts.len() {
             return Err(AnnotationError::OtherScene { path });
         }
-        let mut replay = Replay::new(&header, part_of_face(&faces));
+        Self::of_log(&header, entries, &faces).map(Some).map_err(|problem| AnnotationError::at(&path, problem))
+    }
+
+    /// The result of a log, for parts with these numbers of faces.
+    ///
+    /// # Errors
+    /// When an edit cannot be done.
+    pub fn of_log(header: &Header, entries: Vec<Entry>, faces: &[usize]) -> Result<Self, LogProblem> {
+        let mut replay = Replay::new(header, part_of_face(faces));
         for entry in entries {
-            replay.perform(entry.edit).map_err(|problem| AnnotationError::at(&path, LogProblem::of_edit(entry.revision, problem)))?;
+            let revision = entry.revision;
+            replay.perform(entry).map_err(|problem| LogProblem::of_edit(revision, problem))?;
         }
-        Ok(Some(replay.into_annotation()))
+        Ok(replay.into_annotation())
     }
 
     /// The pieces of a scene in which nothing was split: its parts, with these labels.

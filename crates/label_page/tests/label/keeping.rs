@@ -274,7 +274,8 @@ async fn reviews_are_kept_beside_the_edits_and_exported() {
     assert_eq!(page.get("reviews").await, json!([]));
     page.post("review", ask(&[0, 1], "done", "")).await;
     let (status, reviews) = page.post("review", ask(&[1], "question", "near, or far?")).await;
-    let expected = json!([{ "piece": 0, "state": "done", "note": "" }, { "piece": 1, "state": "question", "note": "near, or far?" }]);
+    let row = |piece: u32, state: &str, note: &str| json!({ "piece": piece, "state": state, "note": note, "who": "" });
+    let expected = json!([row(0, "done", ""), row(1, "question", "near, or far?")]);
     assert_eq!((status.as_u16(), &reviews), (200, &expected));
     for (body, problem) in
         [(ask(&[9], "done", ""), "piece 9"), (ask(&[0], "fine", ""), "unknown variant"), (ask(&[0], "done", &"x".repeat(2001)), "note")]
@@ -283,7 +284,7 @@ async fn reviews_are_kept_beside_the_edits_and_exported() {
         assert!(status == 400 && answer["error"].as_str().unwrap().contains(problem), "{answer}");
     }
     let table = std::fs::read_to_string(folder.path().join("room.scene.labels/metadata_object_review.csv")).unwrap();
-    assert_eq!(table, "object_name,state,note\nwall,done,\nnear,question,\"near, or far?\"\n");
+    assert_eq!(table, "object_name,state,note,who\nwall,done,,\nnear,question,\"near, or far?\",\n");
     // No edit was made, and undoing leaves reviews alone.
     assert_eq!(page.get("scene").await["revision"].as_u64(), Some(0));
     drop(page);

@@ -2,6 +2,7 @@
 
 mod editing;
 mod keeping;
+mod people;
 mod relabel;
 mod requests;
 mod room;

@@ -1,6 +1,7 @@
 // What the commands of the annotation page do with labels and the selection.
 
 import { getJson, postJson } from "../shared/api.js";
+import { say } from "../shared/say.js";
 import { toggleTheme } from "../shared/theme.js";
 import { toast, toastError } from "../shared/toast.js";
 import { Digits } from "./digits.js";
@@ -8,6 +9,10 @@ import { Looking } from "./looking.js";
 import { RealLook } from "./real_look.js";
 import { stem } from "./names.js";
 import { newInstance } from "./state.js";
+import { Things } from "./things.js";
+
+/** What the camera shows is told when it has rested for this long, milliseconds. */
+const REST_MS = 600;
 
 /** @typedef {{ piece: number, best_view: { camera: string, frame: number } | null, pixels: number, name: string }} Missing */
 
@@ -23,6 +28,7 @@ export class Actions {
         this.stage = stage;
         this.edits = edits;
         this.digits = new Digits(state);
+        this.things = new Things(this);
         this.looking = new Looking(state, stage);
         /** Faces that splits moved since the page was loaded, with their pieces. @type {[number[], number[]][]} */
         this.moved = [];
@@ -40,6 +46,7 @@ export class Actions {
         this.openSettings = () => {};
         this.openQuestion = (/** @type {string} */ _about) => {};
         this.showTab = (/** @type {string} */ _name) => {};
+        this.telling = 0;
         /** Gives up the stroke that is being drawn; false if there is none. */
         this.giveUpStroke = () => false;
         // This runs before the next edit of the queue is sent, which may have to use the same new instance number.
@@ -58,7 +65,10 @@ export class Actions {
         const change = await this.edits.send(edit);
         this.given(edit, change);
         const { layer, value } = apply;
-        if (change?.pieces.length > 0 && layer === "semantic" && value !== undefined && value >= 1) this.state.remember(value);
+        if (change?.pieces.length > 0 && layer === "semantic" && value !== undefined && value >= 1) {
+            this.state.remember(value);
+            this.things.last = change.pieces;
+        }
         return change;
     }
 
@@ -113,6 +123,7 @@ export class Actions {
         const pieces = this.chosen();
         if (!pieces) return;
         if (currentClass === null) return this.tellNoClass();
+        this.things.last = pieces;
         const sent = this.edits.send({ type: "assign", pieces, apply: { layer: "semantic", value: currentClass, new: true } });
         const change = await this.ahead(pieces, sent, true);
         if (!change) return;
@@ -150,7 +161,7 @@ export class Actions {
         const pieces = this.chosen();
         if (!pieces) return;
         try {
-            const sent = postJson("/api/annotate/review", { client: this.edits.client, pieces, state, note });
+            const sent = postJson("/api/annotate/review", { client: this.edits.client, who: this.edits.who, pieces, state, note });
             this.state.takeReviews(await this.ahead(pieces, sent, this.state.goesOn));
         } catch (error) {
             toastError(error);
@@ -279,10 +290,23 @@ export class Actions {
         const { length } = this.unlabelled;
         for (let i = 1; i <= length; i++) {
             const one = this.unlabelled[(((place < 0 && by < 0 ? 0 : place) + by * i) % length + length) % length];
-            if (this.isMissing(one.piece)) return this.looking.goToPiece(one.piece, one.best_view);
+            if (!this.isMissing(one.piece)) continue;
+            const left = this.unlabelled.filter(({ piece }) => this.isMissing(piece));
+            say(`${this.state.name(one.piece)}, ${this.state.className(one.piece) || "no class"}, ${left.indexOf(one) + 1} of ${left.length} to do`);
+            return this.looking.goToPiece(one.piece, one.best_view);
         }
         const all = { semantic: "Every piece has a class.", instance: "Everything with a class has an instance.", done: "Nothing is waiting for approval.", question: "No question is open." };
         toast(all[this.lacking], "", "good");
+    }
+
+    /** Says what is in the middle of the view, once the camera has come to rest. */
+    tellView() {
+        clearTimeout(this.telling);
+        this.telling = setTimeout(() => {
+            const { clientWidth, clientHeight } = this.stage.element;
+            const { piece } = this.stage.seenAt(clientWidth / 2, clientHeight / 2);
+            say(piece < 0 ? "Nothing in the middle" : `In the middle: ${this.state.name(piece)}, ${this.state.className(piece) || "no class"}`);
+        }, REST_MS);
     }
 
     /** Does something with the selection, if there is one. @param {(pieces: number[]) => unknown} act */

@@ -52,14 +52,17 @@ export function commands(act) {
         ["expand-piece", "Expand to pieces", ["Alt+1"], () => state.set({ expand: "piece" })],
         ["expand-instance", "Expand to whole instances", ["Alt+2"], () => state.set({ expand: "instance" })],
         ["expand-class", "Expand to whole classes", ["Alt+3"], () => state.set({ expand: "class" })],
-        ["filter-1", "Filter: only without instance", ["Alt+4"], () => state.setFilter("only_without_instance", !state.filters.only_without_instance)],
-        ["filter-2", "Filter: only with instance", ["Alt+5"], () => state.setFilter("only_with_instance", !state.filters.only_with_instance)],
-        ["filter-3", "Filter: only without class", ["Alt+6"], () => state.setFilter("only_without_class", !state.filters.only_without_class)],
-        ["filter-4", "Filter: only with class", ["Alt+7"], () => state.setFilter("only_with_class", !state.filters.only_with_class)],
+        ["filter-1", "Filter: only without instance", ["Alt+4"], () => state.setFilter("only_without_instance", !state.filtersNow.only_without_instance)],
+        ["filter-2", "Filter: only with instance", ["Alt+5"], () => state.setFilter("only_with_instance", !state.filtersNow.only_with_instance)],
+        ["filter-3", "Filter: only without class", ["Alt+6"], () => state.setFilter("only_without_class", !state.filtersNow.only_without_class)],
+        ["filter-4", "Filter: only with class", ["Alt+7"], () => state.setFilter("only_with_class", !state.filtersNow.only_with_class)],
     ]);
     add("Selection", [
         ["assign", "Give the selection the current label", ["Enter"], () => act.assign()],
         ["thing", "New thing: class and new instance, then go to the next", ["Shift+Enter"], () => void act.makeThing()],
+        ["whole", "Select the whole object; again: the one around it", ["Shift+w"], () => act.things.selectWhole()],
+        ["whole-thing", "The whole object: class and new instance, then go to the next", ["Ctrl+Enter"], () => void act.things.makeWhole()],
+        ["same-again", "The same again: label all moved copies, an instance each", ["Shift+s"], () => void act.things.sameAgain()],
         ["clear-label", "Remove the label of this layer", ["Delete", "Backspace"], () => act.clearLabel()],
         ["confirm", "Confirm the suggestion for the selection", ["y"], () => act.confirmSelection()],
         ["reject", "Reject the suggestion for the selection", ["Shift+y"], () => act.withSelection((pieces) => state.reject(pieces))],
@@ -167,6 +170,7 @@ export function listenToKeys(table, act) {
             if (!event.repeat || REPEATED.has(command.id)) command.run();
         } else if ((!event.shiftKey || event.key.startsWith("Arrow")) && act.stage.controls.key(event)) {
             event.preventDefault();
+            act.tellView();
         }
     });
     holdKeys(byKey);

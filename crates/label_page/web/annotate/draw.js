@@ -170,11 +170,11 @@ export class Draw {
         const { state } = this;
         const touched = this.touched(points);
         const left = touched.filter((piece) => !passes(state, piece)).map((piece) => state.name(piece));
-        const change = await this.hooks.give({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filters });
+        const change = await this.hooks.give({ type: "stroke", ...this.look(), shape: this.shape(points), expand: state.expand, filters: state.filtersNow });
         if (!change || change.pieces.length > 0) return;
         if (touched.length === 0) toast("The stroke met nothing.");
         else if (left.length === 0) toast("Nothing has changed: it has this label already.", "", "good");
-        else toast(`Nothing was labelled: ${left.slice(0, 3).join(", ")}${left.length > 3 ? " and more" : ""} left out.`, `Only faces ${filtersOn(state)} are labelled; the filters are at the left.`);
+        else toast(`Nothing was labelled: ${left.slice(0, 3).join(", ")}${left.length > 3 ? " and more" : ""} left out.`, `Only faces ${filtersOn(state)} are labelled; the filters at the left, and Alt+4 to Alt+7, change that.`);
     }
 
     /** The pieces under a stroke, as they are shown. @param {[number, number][]} points */

@@ -4,6 +4,8 @@
 
 import { ApiError, getJson, postJson } from "../shared/api.js";
 import { toast, toastError } from "../shared/toast.js";
+import { hear } from "./hearing.js";
+import { keepName, myName } from "./person.js";
 
 const RETRY_MS = 1500;
 const STORE = "enfilade.annotate.unsent";
@@ -16,12 +18,14 @@ const newId = () => crypto.randomUUID?.() ?? Array.from(crypto.getRandomValues(n
 /** "1 edit", "2 edits". @param {number} count */
 export const counted = (count) => `${count} ${count === 1 ? "edit" : "edits"}`;
 
-/** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a change. */
+/** Sends edits and hears of those of other tabs. Events: `state` when something about saving has changed, `change` with a change, `reviews`. */
 export class Edits extends EventTarget {
     /** @param {string} scene so that unsent edits of several scenes are kept apart */
     constructor(scene) {
         super();
         this.client = newId();
+        /** The name of the person, whose undo is their own. */
+        this.who = myName();
         this.store = `${STORE}:${scene}`;
         /** @type {{ id: string, action: any, done: (change: any) => void }[]} */
         this.queue = [];
@@ -39,6 +43,12 @@ export class Edits extends EventTarget {
         window.addEventListener("beforeunload", (event) => {
             if (this.queue.length > 0 && !this.reloading) event.preventDefault();
         });
+    }
+
+    /** Takes another name; what was done under the one before stays its. @param {string} name */
+    setName(name) {
+        this.who = keepName(name);
+        this.dispatchEvent(new Event("name"));
     }
 
     /** True while edits cannot be sent or changes cannot be heard. */
@@ -110,7 +120,7 @@ export class Edits extends EventTarget {
      */
     async answered({ id, action }) {
         try {
-            const change = await postJson("/api/annotate/edit", { client: this.client, id, action });
+            const change = await postJson("/api/annotate/edit", { client: this.client, who: this.who, id, action });
             [this.stuck, this.refused] = [null, false];
             return change;
         } catch (error) {
@@ -142,15 +152,13 @@ export class Edits extends EventTarget {
      * @param {() => number} revision the last one that is known
      */
     listen(revision) {
-        const source = new EventSource(`/api/annotate/events?since=${revision()}`);
-        source.addEventListener("message", (event) => {
-            this.dispatchEvent(new CustomEvent("change", { detail: JSON.parse(event.data) }));
-        });
-        source.addEventListener("reload", () => this.reload());
-        source.addEventListener("open", () => this.setDeaf(false));
-        source.addEventListener("error", () => {
+        hear(revision(), (kind, text) => {
+            if (kind === "message") this.dispatchEvent(new CustomEvent("change", { detail: JSON.parse(text) }));
+            if (kind === "reviews") this.dispatchEvent(new Event("reviews"));
+            if (kind === "reload") this.reload();
+            if (kind === "open") this.setDeaf(false);
+            if (kind !== "error") return;
             this.setDeaf(true);
-            source.close();
             setTimeout(() => void this.resume(revision), RETRY_MS);
         });
     }

@@ -19,10 +19,10 @@ export const FILTERS = [
 ];
 
 /** True when the filters let a stroke label this piece. @param {import("./state.js").State} state @param {number} piece */
-export function passes({ filters, pieces }, piece) {
+export function passes({ filtersNow: filters, pieces }, piece) {
     const [classed, counted] = [pieces.semantic[piece] >= 1, pieces.instance[piece] >= 1];
     return !(filters.only_without_class && classed) && !(filters.only_with_class && !classed) && !(filters.only_without_instance && counted) && !(filters.only_with_instance && !counted);
 }
 
 /** The names of the filters that are on. @param {import("./state.js").State} state */
-export const filtersOn = (state) => FILTERS.filter(([filter]) => state.filters[filter]).map(([, name]) => `“${name}”`).join(" and ");
+export const filtersOn = (state) => FILTERS.filter(([filter]) => state.filtersNow[filter]).map(([, name]) => `“${name}”`).join(" and ");

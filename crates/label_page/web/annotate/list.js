@@ -4,6 +4,8 @@ import { el } from "../shared/dom.js";
 
 /** Height of a row, in em. */
 const ROW_EM = 2;
+/** Lists so far: their rows have ids of their own. */
+let lists = 0;
 /** Rows beyond the visible ones, above and below. */
 const SPARE = 8;
 
@@ -21,6 +23,7 @@ export class PieceList {
         /** @type {number[]} */
         this.pieces = [];
         this.active = 0;
+        this.id = `list-${++lists}`;
         /** True when the active piece has left the list, so that the active row is the one that followed it. */
         this.isPast = false;
         this.table = el("div", { class: "table" });
@@ -39,7 +42,8 @@ export class PieceList {
     show(pieces) {
         const active = this.pieces[this.active];
         const at = pieces.indexOf(active);
-        this.isPast = at < 0 && active !== undefined && pieces.length > 0;
+        // A list that is shown again while the row that followed is still there changes nothing about that.
+        if (at < 0) this.isPast = active !== undefined && pieces.length > 0;
         this.pieces = pieces;
         this.active = at < 0 ? Math.min(this.active, Math.max(0, pieces.length - 1)) : at;
         this.draw();
@@ -66,6 +70,7 @@ export class PieceList {
             this.active = Math.min(this.pieces.length - 1, Math.max(0, this.active + step));
             if (this.pieces.length > 0) this.hooks.select(this.pieces[this.active], event.shiftKey);
             this.reveal(this.pieces[this.active]);
+            this.draw();
             event.preventDefault();
         } else if (event.key === "F2" && this.pieces.length > 0) {
             this.hooks.open(this.pieces[this.active]);
@@ -79,6 +84,14 @@ export class PieceList {
         const first = Math.max(0, Math.floor(this.element.scrollTop / row) - SPARE);
         const last = Math.min(this.pieces.length, first + Math.ceil(this.element.clientHeight / row) + 2 * SPARE);
         this.table.replaceChildren(...this.pieces.slice(first, last).map((piece, i) => this.rowOf(piece, first + i)));
+        // Only rows in sight are elements.
+        if (this.active >= first && this.active < last) this.element.setAttribute("aria-activedescendant", this.rowId(this.pieces[this.active]));
+        else this.element.removeAttribute("aria-activedescendant");
+    }
+
+    /** @param {number} piece */
+    rowId(piece) {
+        return `${this.id}-${piece}`;
     }
 
     /** @param {number} piece @param {number} at */
@@ -87,10 +100,10 @@ export class PieceList {
         const row = el(
             "div",
             {
-                class: "piece",
+                class: at === this.active ? "piece active" : "piece",
+                id: this.rowId(piece),
                 role: "option",
                 "aria-selected": this.hooks.isSelected(piece),
-                "aria-label": label,
                 "aria-posinset": at + 1,
                 "aria-setsize": this.pieces.length,
                 "data-piece": piece,

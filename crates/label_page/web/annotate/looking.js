@@ -5,6 +5,7 @@ import { postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { toastError } from "../shared/toast.js";
 import { ceilings } from "./ceilings.js";
+import { extentToShow } from "./extent.js";
 import { rooms } from "./rooms.js";
 
 /** The direction from the scene to the camera that shows all of it, beside the camera's own turn: so far down, degrees. */
@@ -93,7 +94,7 @@ export class Looking {
 
     /** @param {Vector3} back from the scene to the camera */
     show(back) {
-        const { min, max } = this.state.scene.bounds;
+        const { min, max } = extentToShow(this.state);
         this.flights++;
         this.stage.frameBox(min, max, back);
     }

@@ -4,9 +4,10 @@ import { getBytes, getJson, postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { resizable } from "../shared/resizable.js";
+import { say } from "../shared/say.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
 import { takeChosenTheme, themeColor } from "../shared/theme.js";
-import { toastError } from "../shared/toast.js";
+import { toast, toastError } from "../shared/toast.js";
 import { Actions } from "./actions.js";
 import { classesPanel } from "./classes_panel.js";
 import { pieceColors } from "./colors.js";
@@ -17,6 +18,7 @@ import { focusReturnsTo } from "./focus.js";
 import { helpOverlay, palette } from "./help.js";
 import { historyPanel } from "./history_panel.js";
 import { tabs } from "./panels.js";
+import { called } from "./person.js";
 import { piecesPanel } from "./pieces_panel.js";
 import { progressPanel, unlabelledPanel } from "./progress_panel.js";
 import { selectionBox } from "./selection_box.js";
@@ -94,12 +96,21 @@ function followEdits(state, edits, stage, act) {
             act.moved.push([faces, pieces]);
         }
         if ([...change.resized, ...change.removed].some((one) => (one.piece ?? one) === state.painting?.piece)) act.endPainting();
-        byId("live").textContent = change.description;
+        if (change.client === edits.client) say(change.description);
+        else tellOthers(change, edits);
         progressSoon();
     });
+    edits.addEventListener("reviews", () => void getJson("/api/annotate/reviews").then((rows) => state.takeReviews(rows)).catch(() => {}));
     edits.listen(() => state.revision);
     void edits.work();
     progressSoon();
+}
+
+/** Shows what others do; a message tells whose own edit was undone or done again. @param {any} change @param {Edits} edits */
+function tellOthers(change, edits) {
+    const line = byId("others");
+    line.textContent = line.title = `${called(change.who, edits.who)}: ${change.description}`;
+    if (change.of === edits.who) toast(`${line.textContent}.`, "The history lists every edit, and goes back and forward.");
 }
 
 /** Reports activity to the server, which counts the time at work. */

@@ -8,11 +8,14 @@ import { matches } from "./names.js";
 /** A class with its colour. @param {import("./state.js").State} state @param {number} id */
 export function classCell(state, id) {
     const one = state.classById.get(id);
-    if (!one) return el("span", { class: "quiet" }, "none");
+    if (!one) return el("span", { class: "quiet" }, "none", el("span", { class: "visually-hidden" }, " as class"));
     const swatch = el("span", { class: "swatch" });
     swatch.style.background = css(one.color);
     return el("span", {}, swatch, ` ${one.name}`);
 }
+
+/** A cell with words around it for screen readers. @param {string} before @param {string} text @param {string} [after] */
+const unseen = (before, text, after = "") => el("span", {}, before ? el("span", { class: "visually-hidden" }, before) : null, text, after ? el("span", { class: "visually-hidden" }, after) : null);
 
 /** Selects a piece from a list; with more, adds it or takes it out. @param {import("./state.js").State} state */
 export const selecting = (state) => (/** @type {number} */ piece, /** @type {boolean} */ more) => {
@@ -37,7 +40,7 @@ export function piecesPanel(state, act) {
             const { semantic, instance, areas_m2 } = state.pieces;
             const area = areas_m2[piece];
             const label = `${state.name(piece)}, ${state.className(piece) || "no class"}, ${instance[piece] >= 1 ? `instance ${instance[piece]}` : "no instance"}, ${area.toPrecision(3)} m²`;
-            return { piece, label, cells: [state.name(piece), classCell(state, semantic[piece]), instance[piece] >= 1 ? String(instance[piece]) : "", area >= 0.01 ? area.toFixed(2) : "<0.01"] };
+            return { piece, label, cells: [state.name(piece), classCell(state, semantic[piece]), instance[piece] >= 1 ? unseen("instance ", String(instance[piece])) : unseen("no instance", ""), unseen("", area >= 0.01 ? area.toFixed(2) : "<0.01", " m²")] };
         },
         isSelected: (piece) => state.selection.has(piece),
         select: selecting(state),

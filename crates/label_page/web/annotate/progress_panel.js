@@ -3,6 +3,7 @@
 import { getJson } from "../shared/api.js";
 import { byId, el, spaced } from "../shared/dom.js";
 import { oneTabStop } from "../shared/one_tab_stop.js";
+import { carriedPart } from "./carried_part.js";
 import { PieceList } from "./list.js";
 import { classCell, selecting } from "./pieces_panel.js";
 import { commandButton } from "./toolbar.js";
@@ -88,8 +89,10 @@ export function progressPanel(state) {
         );
         byId("progress-line").textContent = `${percent(visible.pixels_labelled_share)} of visible pixels, ${labelled_pieces} of ${pieces} pieces`;
     });
-    const panel = el("div", {}, el("div", { class: "words" }, el("h2", {}, "Progress"), bars, el("h2", {}, "Work log"), log));
+    const carried = el("div", {});
+    const panel = el("div", {}, el("div", { class: "words" }, el("h2", {}, "Progress"), bars, el("h2", {}, "Work log"), log, carried));
     panel.addEventListener("shown", async () => {
+        carried.replaceChildren(...(await carriedPart(state)));
         const { sessions, active_seconds, actions } = await getJson("/api/annotate/worklog").catch(() => ({ sessions: [], active_seconds: 0, actions: 0 }));
         const rows = sessions.slice(-12).reverse().flatMap((/** @type {any} */ one) => [el("dt", { class: "quiet" }, new Date(one.start).toLocaleString()), el("dd", { class: "number" }, duration(one.active_seconds))]);
         log.replaceChildren(el("dl", { class: "facts" }, el("dt", {}, "Time at work (idle time is not counted)"), el("dd", { class: "number" }, duration(active_seconds)), el("dt", {}, "Edits"), el("dd", { class: "number" }, spaced(actions)), ...rows));

@@ -59,9 +59,10 @@ export function selectionBox(state, table, act) {
     const give = button("assign", "Give label");
     give.classList.add("primary");
     const confirm = button("confirm", "Confirm");
+    const again = button("same-again", "Again");
     const label = [give, button("thing", "New thing"), confirm];
-    const choose = [["same-name", "Same name"], ["same-geometry", "Same shape"], ["split-component", "Split"], ["split-faces", "Paint"]].map(([id, text]) => button(id, text));
-    const rows = el("div", { class: "rows" }, el("div", { class: "row" }, ...label), el("div", { class: "row" }, ...choose));
+    const choose = [["whole", "Whole"], ["same-name", "Same name"], ["same-geometry", "Same shape"], ["split-component", "Split"], ["split-faces", "Paint"]].map(([id, text]) => button(id, text));
+    const rows = el("div", { class: "rows" }, el("div", { class: "row" }, ...label, again), el("div", { class: "row" }, ...choose));
     byId("current").append(labelChip(state, act.digits), what, more, rows);
     state.on(["selection", "labels", "pieces", "reviews"], () => {
         const [name, has] = words(state);

@@ -60,7 +60,9 @@ export class State extends EventTarget {
         /** @type {Expand} */
         this.expand = "piece";
         /** @type {Record<Filter, boolean>} */
-        this.filters = { only_without_instance: true, only_with_instance: false, only_without_class: true, only_with_class: false };
+        this.filters = { only_without_instance: false, only_with_instance: false, only_without_class: false, only_with_class: false };
+        /** True until somebody sets a filter: what has a label in the layer is protected, and erasing is for what has one. */
+        this.filtersFollow = true;
         /** The class to give; null before one is chosen, and after a number that is no class. @type {number | null} */
         this.currentClass = null;
         /** Classes that were given last, the last one first. @type {number[]} */
@@ -74,7 +76,7 @@ export class State extends EventTarget {
         /** Painted faces to split off; with `erase` a drag takes faces out. @type {{ piece: number, faces: Set<number>, erase: boolean } | null} */
         this.painting = null;
         this.isolated = false;
-        /** How far pieces are that something was said of. @type {Map<number, { state: ReviewState, note: string }>} */
+        /** How far pieces are that something was said of, and by whom. @type {Map<number, { state: ReviewState, note: string, who: string }>} */
         this.reviews = new Map();
         /** Pieces that show what is suggested for them. @type {Set<number>} */
         this.proposed = new Set();
@@ -116,12 +118,13 @@ export class State extends EventTarget {
     /** How far the pieces are, in words; empty where nothing was said. @param {number} piece */
     reviewOf(piece) {
         const review = this.reviews.get(piece);
-        return review ? [review.state.replace("_", " "), review.note].filter(Boolean).join(": ") : "";
+        const words = review ? [review.state.replace("_", " "), review.note].filter(Boolean).join(": ") : "";
+        return review?.who ? `${words} (${review.who})` : words;
     }
 
-    /** @param {{ piece: number, state: ReviewState, note: string }[]} rows */
+    /** @param {{ piece: number, state: ReviewState, note: string, who: string }[]} rows */
     takeReviews(rows) {
-        this.reviews = new Map(rows.map(({ piece, state, note }) => [piece, { state, note }]));
+        this.reviews = new Map(rows.map(({ piece, state, note, who }) => [piece, { state, note, who }]));
         this.tell("reviews");
     }
 
@@ -163,9 +166,23 @@ export class State extends EventTarget {
 
     /** Switches a filter on or off. Switching it on switches its contrary off. @param {Filter} filter @param {boolean} on */
     setFilter(filter, on) {
-        this.filters = { ...this.filters, [filter]: on };
+        this.filters = { ...this.filtersNow, [filter]: on };
+        this.filtersFollow = false;
         if (on) this.filters[CONTRARY[filter]] = false;
         this.tell("tools", "filters");
+    }
+
+    /** The filters that strokes go by. @returns {Record<Filter, boolean>} */
+    get filtersNow() {
+        if (!this.filtersFollow) return this.filters;
+        const of = this.layer === "semantic" ? "class" : "instance";
+        const none = { only_without_instance: false, only_with_instance: false, only_without_class: false, only_with_class: false };
+        return { ...none, [`only_${this.erase ? "with" : "without"}_${of}`]: true };
+    }
+
+    /** What somebody can undo and redo. @param {string} who @returns {{ undo: string | null, redo: string | null }} */
+    own(who) {
+        return this.standing.people[who] ?? this.standing.people[""];
     }
 
     /** @param {Iterable<number>} pieces */
@@ -222,6 +239,7 @@ export class State extends EventTarget {
             columns.instance[at] = one.instance;
             // A suggestion for a part counts for its pieces.
             columns.suggestions[at] = columns.suggestions[columns.parents[at]] ?? null;
+            columns.objects[at] = columns.objects[columns.parents[at]] ?? "";
             this.removed.delete(at);
         }
         change.pieces.forEach((/** @type {number} */ piece, /** @type {number} */ i) => {

@@ -2,6 +2,7 @@
 // the panel is open the scene shows them, hatched, in the colours of their classes.
 
 import { el, spaced } from "../shared/dom.js";
+import { oneTabStop } from "../shared/one_tab_stop.js";
 import { PieceList } from "./list.js";
 import { stem } from "./names.js";
 import { classCell } from "./pieces_panel.js";
@@ -34,15 +35,22 @@ export function suggestionsPanel(state, act) {
     }
     const propose = () => state.set({ proposed: new Set(all()) });
     slider.addEventListener("input", refresh);
+    const selected = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ run) => el("button", { id, disabled: true, onclick: run }, text);
+    const judge = [selected("confirm-selected", "✓ Confirm selected", () => act.confirmSelection()), selected("reject-selected", "✗ Reject selected", () => act.withSelection((pieces) => state.reject(pieces)))];
+    const buttons = el("div", { class: "review", role: "group", "aria-label": "Suggestions for the selection" }, ...judge);
+    oneTabStop(buttons);
     const note = el("p", { class: "quiet words" }, state.scene.has_suggestions ? "Learned from names of parts and materials. Y confirms and Shift+Y rejects what is selected." : "The names of this scene are unknown, so there are no suggestions.");
-    const panel = el("div", { class: "suggested" }, el("div", { class: "head" }, slider, threshold, confirm), list.element, note);
+    const panel = el("div", { class: "suggested" }, el("div", { class: "head" }, slider, threshold, confirm), list.element, buttons, note);
     panel.addEventListener("shown", () => {
         list.draw();
         propose();
     });
     panel.addEventListener("left", () => state.set({ proposed: new Set() }));
     state.on(["labels", "pieces"], refresh);
-    state.on(["selection"], () => list.draw());
+    state.on(["selection", "labels"], () => {
+        list.draw();
+        for (const button of judge) button.disabled = ![...state.selection].some((piece) => state.suggestion(piece) && state.pieces.semantic[piece] < 1);
+    });
     return panel;
 }
 
@@ -58,7 +66,8 @@ function suggestionRow(state, act, row, pieces) {
             event.stopPropagation();
             run();
         };
-        return el("button", { class: "plain", tabindex: "-1", title: `${verb} ${className} for ${name}`, "aria-label": `${verb} ${className} for ${name}`, onclick: pressed, ondblclick: (/** @type {Event} */ event) => event.stopPropagation() }, sign);
+        // For the pointer; keys have the buttons below the list.
+        return el("span", { class: "judge", "aria-hidden": "true", "data-judge": verb, title: `${verb} ${className} for ${name}`, onclick: pressed, ondblclick: (/** @type {Event} */ event) => event.stopPropagation() }, sign);
     };
     const buttons = el("span", {}, button("✓", "Confirm", () => void act.confirm(pieces)), button("✗", "Reject", () => state.reject(pieces)));
     return { piece: row, label: `${name}: ${className}, ${sure} %`, cells: [row < 0 ? el("b", {}, name) : name, classCell(state, semantic), `${sure} %`, buttons] };

@@ -46,7 +46,7 @@ export function toolbar(state, table) {
     const filters = FILTERS.map(([filter, text]) => {
         const box = el("input", { type: "checkbox", "data-filter": filter, onchange: () => state.setFilter(filter, box.checked) });
         state.on(["filters", "tools"], () => {
-            box.checked = state.filters[filter];
+            box.checked = state.filtersNow[filter];
             box.disabled = state.tool === "eyedropper";
         });
         return el("label", {}, box, text);
@@ -71,11 +71,11 @@ export function topBar(state, table, act) {
     redo.setAttribute("aria-label", "Redo");
     byId("history").append(undo, redo);
     state.on(["history"], () => {
-        const { can_undo, can_redo, undo_description, redo_description } = state.standing;
-        undo.disabled = !can_undo;
-        redo.disabled = !can_redo;
-        undo.title = can_undo ? `Undo: ${undo_description ?? ""} (Ctrl+Z)` : "Nothing to undo";
-        redo.title = can_redo ? `Redo: ${redo_description ?? ""} (Ctrl+Shift+Z)` : "Nothing to redo";
+        const own = state.own(act.edits.who);
+        undo.disabled = own.undo === null;
+        redo.disabled = own.redo === null;
+        undo.title = own.undo === null ? "You have nothing to undo" : `Undo: ${own.undo} (Ctrl+Z)`;
+        redo.title = own.redo === null ? "You have nothing to redo" : `Redo: ${own.redo} (Ctrl+Shift+Z)`;
     });
     const realLook = button("real-look", "Real look", () => act.realLook.on);
     realLook.disabled = !act.realLook.isKnown;

@@ -10,7 +10,9 @@
 // suggestions three keys come first (the tab, the slider, confirm), and wrong ones are labelled like unlabelled ones; finding the wrong
 // ones is not counted. "One by one" looks at each group: a right suggestion is confirmed (1 key), and every decision counts. "Class by class"
 // looks at all that is suggested as one class: each wrong group of it is rejected (a click and a decision), and the rest confirmed (2 keys: to
-// its row, confirm). Things are pieces that get a class and an instance of their own: the digits, and Shift+Enter (2). Times are those of the
+// its row, confirm). Things are pieces that get a class and an instance of their own: the digits, and Shift+Enter (2). Those of the scene's
+// own instances are also made by clicks on each of their pieces, by whole objects (a click, the digits, Ctrl+Enter, and Shift+W where a group
+// is within a group), and with copies at once (Shift+S; copies are taken for those that have pieces of the same shapes). Times are those of the
 // keystroke-level model (Card, Moran & Newell, CACM 1980): 0.28 s per key, 1.3 s to point and click, and 1.35 s of thought per decision.
 
 import { spawn } from "node:child_process";
@@ -19,6 +21,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { stem } from "../../../label_page/web/annotate/names.js";
+import { wholeOf } from "../../../label_page/web/annotate/whole_objects.js";
 
 const KEY_S = 0.28;
 const CLICK_S = 1.3;
@@ -79,6 +82,37 @@ function groupsOf(suggested) {
     return groups;
 }
 
+/** Keys, clicks and decisions to make things of instances: piece by piece, by whole objects, and with copies at once. */
+function costOfThings() {
+    const things = new Map();
+    for (const i of all) if (pieces.instance[i] >= 1) things.set(pieces.instance[i], [...(things.get(pieces.instance[i]) ?? []), i]);
+    const state = { pieces, count: truth.length, removed: new Set() };
+    const costs = { "things, by clicks": [], "things, whole objects": [], "things, whole objects and the same again": [] };
+    const seen = new Set();
+    for (const members of things.values()) {
+        const label = String(truth[members[0]]).length;
+        const byClicks = { clicks: members.length, keys: label + 2, groups: 1 };
+        // Shift+W until the selection is the thing; one press is saved by Ctrl+Enter.
+        let [found, presses] = [[members[0]], 0];
+        while (found && found.length < members.length) {
+            found = wholeOf(state, found);
+            presses++;
+        }
+        const isWhole = found?.length === members.length && members.every((i) => found.includes(i));
+        const whole = isWhole ? { clicks: 1, keys: label + 2 + 2 * Math.max(0, presses - 1), groups: 1 } : byClicks;
+        costs["things, by clicks"].push(byClicks);
+        costs["things, whole objects"].push(whole);
+        // Copies have pieces of the same shapes; Shift+S labels them.
+        const shape = members.map((i) => pieces.geometry_keys[i]).sort((a, b) => a - b).join(" ");
+        const isFirst = !seen.has(shape);
+        seen.add(shape);
+        const copies = [...things.values()].filter((others) => others.map((i) => pieces.geometry_keys[i]).sort((a, b) => a - b).join(" ") === shape).length;
+        if (isFirst) costs["things, whole objects and the same again"].push({ ...whole, keys: whole.keys + (copies > 1 ? 2 : 0) });
+    }
+    const sum = (list, what) => list.reduce((total, one) => total + one[what], 0);
+    return { count: things.size, rows: Object.entries(costs).map(([row, list]) => ({ row, keys: sum(list, "keys"), clicks: sum(list, "clicks"), groups: sum(list, "groups") })) };
+}
+
 const pieces = await piecesOf();
 const byMaterial = table ? classesByMaterial() : null;
 const truth = byMaterial ? pieces.materials.map((material) => byMaterial.get(material) ?? -1) : pieces.semantic;
@@ -110,3 +144,6 @@ for (const least of [0.9, 0.8, 0.5]) {
     const sum = { keys: left.keys + 2 * classes, groups: left.groups + classes + wrong.length, clicks: wrong.length };
     console.log(`| suggestions of ${least} and more, class by class | ${suggested.length} | ${suggested.length - right.size} | ${sum.keys} + ${sum.clicks} clicks | ${sum.groups} | ${minutes(sum)} |`);
 }
+const things = costOfThings();
+console.log(`\n${things.count} things\n\n| | keys | clicks | decisions | minutes |\n|---|---|---|---|---|`);
+for (const one of things.rows) console.log(`| ${one.row} | ${one.keys} | ${one.clicks} | ${one.groups} | ${minutes(one)} |`);

@@ -19,9 +19,8 @@ test("strokes label a room, and the files say so", async (t) => {
         await draw(page, at, at);
         assert.deepEqual(await labelOf(page, name), [id, -1], name);
     }
-    // Instances: chairs get a number each by unique ids, with a filter that lets classified faces through.
+    // Instances: chairs get a number each by unique ids.
     await page.keyboard.press("t");
-    await page.keyboard.press("Alt+6");
     await page.keyboard.press("u");
     const [a, b] = [await pixelOf(page, "chair_1"), await pixelOf(page, "chair_2")];
     await page.keyboard.press("l");
@@ -68,8 +67,13 @@ test("filters protect what is labelled, and contradict each other", async (t) =>
     const page = await open(await browser(t), (await serve(t, file)).url);
     await lookFromFront(page);
     const box = (name) => page.locator(`[data-filter="${name}"]`);
+    // At first they follow the layer, and what is done.
     assert.equal(await box("only_without_instance").isChecked(), true);
-    assert.equal(await box("only_without_class").isChecked(), true);
+    await page.keyboard.press("t");
+    assert.deepEqual([await box("only_without_instance").isChecked(), await box("only_without_class").isChecked()], [false, true]);
+    await page.keyboard.press("e");
+    assert.deepEqual([await box("only_without_class").isChecked(), await box("only_with_class").isChecked()], [false, true]);
+    await page.keyboard.press("e");
     await box("only_with_class").check();
     assert.equal(await box("only_without_class").isChecked(), false);
     await box("only_without_class").check();

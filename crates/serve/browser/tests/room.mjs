@@ -40,10 +40,10 @@ function obj(parts) {
     return text;
 }
 
-/** A fresh folder with the room, which the test's end removes. @param {import("node:test").TestContext} t @param {[string, number[][][]][]} [more] boxes beside it */
-export function room(t, more = []) {
-    const folder = mkdtempSync(join(tmpdir(), "annotate-"));
-    t.after(() => rmSync(folder, { recursive: true, force: true }));
+/** A fresh folder with the room, which the test's end removes; or the room anew in a folder. @param {import("node:test").TestContext} t @param {[string, number[][][]][]} [more] boxes beside it @param {string} [again] the folder */
+export function room(t, more = [], again) {
+    const folder = again ?? mkdtempSync(join(tmpdir(), "annotate-"));
+    if (!again) t.after(() => rmSync(folder, { recursive: true, force: true }));
     writeFileSync(join(folder, "room.obj"), obj([...ROOM, ...more]));
     return { folder, file: join(folder, "room.obj"), labels: join(folder, "room.obj.labels") };
 }

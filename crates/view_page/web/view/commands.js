@@ -26,6 +26,8 @@ export function commandsOf(page) {
     };
     const mode = (/** @type {import("./state.js").Mode} */ name) => store.set({ mode: name });
     const far = (/** @type {number} */ steps) => (/** @type {KeyboardEvent} */ event) => (inGallery() ? page.gallery.key(event) : session.step(steps));
+    const arrows = (/** @type {string} */ before) => ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"].map((key) => before + key);
+    const read = (/** @type {number} */ step) => (/** @type {KeyboardEvent} */ { key }) => page.tools.readPixel(step * (Number(key === "ArrowRight") - Number(key === "ArrowLeft")), step * (Number(key === "ArrowDown") - Number(key === "ArrowUp")));
     return [
         { title: "Frames", keys: [
             { keys: ["ArrowLeft"], shown: "←", says: "frame before; hold to run", does: travelling(-1) },
@@ -37,6 +39,8 @@ export function commandsOf(page) {
             { keys: [" "], shown: "Space", says: "play and stop", repeats: false, does: () => (travel.direction ? travel.stop() : travel.go(1, true)) },
             { keys: ["["], says: "camera before", does: () => tree.camera(-1) },
             { keys: ["]"], says: "next camera or scene", does: () => tree.camera(1) },
+            { keys: ["H"], says: "tag this frame, or not", does: () => page.gallery.mark("tagged") },
+            { keys: ["R"], says: "drop this frame, or not", does: () => page.gallery.mark("dropped") },
             { keys: ["/"], says: "find a scene", does: () => byId("scene-search").focus() },
         ] },
         { title: "Layers", keys: [
@@ -48,6 +52,7 @@ export function commandsOf(page) {
             { keys: ["N"], says: "normals", does: () => show("normal_cam") },
             { keys: ["S"], says: "semantic classes", does: () => show("semantic") },
             { keys: ["I"], says: "instances", does: () => show("semantic_instance") },
+            { keys: ["Ctrl+K"], says: "find a layer by its name", does: () => page.findLayer() },
             { keys: ["X"], says: "exchange the two pictures", does: () => store.set({ layer: store.state.other, other: store.state.layer }) },
         ] },
         { title: "Comparing", keys: [
@@ -73,8 +78,12 @@ export function commandsOf(page) {
             { keys: ["B"], says: "boxes of all instances", does: () => store.set({ boxes: !store.state.boxes }) },
             { keys: ["Shift+B"], says: "names on boxes", does: () => store.set({ names: !store.state.names }) },
             { keys: ["P"], says: "points that are followed", does: () => store.set({ tracks: !store.state.tracks }) },
+            { keys: ["Shift+P"], says: "the next of these points alone", does: () => page.tools.nextTrack() },
             { keys: ["L"], says: "logarithmic colours", does: logarithm },
-            { keys: ["Escape"], shown: "Esc", says: "let go of the instance", does: () => store.set({ instance: 0, class: 0 }) },
+            { keys: ["J"], says: "measure from this pixel; again: to this one", does: () => page.tools.measure() },
+            { keys: arrows("Ctrl+"), shown: "Ctrl+arrows", says: "read pixel by pixel", does: read(1) },
+            { keys: arrows("Ctrl+Shift+"), shown: "Ctrl+Shift+arrows", says: "ten pixels at a time", does: read(10) },
+            { keys: ["Escape"], shown: "Esc", says: "let go of the instance, point, distance", does: () => store.set({ instance: 0, class: 0, track: 0, ruler: "" }) },
         ] },
         { title: "Light", keys: [
             { keys: ["E"], says: "half a stop brighter", does: () => store.set({ stops: store.state.stops + 0.5 }) },

@@ -5,6 +5,8 @@ import { MAPS, MASKS, TRAITS, cssColor } from "./colors.js";
 import { barsOf, sampleOf } from "./histogram.js";
 import { rangeOf } from "./kinds.js";
 import { PERCENTILES, brief } from "./numbers.js";
+import { rulerWords } from "./ruler.js";
+import { countOf, factsOf } from "./tracks.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -27,8 +29,29 @@ export function displayPanel(session) {
     const check = (/** @type {"boxes" | "names" | "tracks"} */ key, /** @type {string} */ text) =>
         el("label", {}, el("input", { type: "checkbox", id: key, "data-key": key, checked: store.state[key], onchange: (/** @type {any} */ e) => store.set({ [key]: e.target.checked }) }), ` ${text}`);
     children.push(el("h2", {}, "Over the picture"), el("div", { class: "checks" }, check("boxes", "Boxes of all instances"), check("names", "Names on boxes"),
-        session.camera?.has_tracks ? check("tracks", "Points that are followed") : null));
+        session.camera?.has_tracks ? check("tracks", "Points that are followed") : null), ...trackPart(session), ...rulerPart(session));
     return children;
+}
+
+/** The point that is followed alone. @param {Session} session */
+function trackPart({ camera, store, tracks }) {
+    const { frame, track } = store.state;
+    const followed = store.state.tracks && camera ? tracks.of(camera) : null;
+    if (!followed) return [];
+    const most = countOf(followed);
+    const choose = (/** @type {any} */ e) => store.set({ track: Math.min(most, Math.max(0, Math.round(e.target.valueAsNumber) || 0)) });
+    const { isSeen, seen } = track > 0 && track <= most ? factsOf(followed, track, frame) : { isSeen: false, seen: [] };
+    return [
+        el("div", { class: "field" }, el("label", { for: "track" }, "One point"), el("input", { id: "track", type: "number", min: "0", max: String(most), "data-key": "track", placeholder: `1 to ${most}`, value: track || "", onchange: choose })),
+        el("p", { class: "quiet" }, track ? `Point ${track} is ${isSeen ? "seen" : "not seen"} here, and seen in ${seen.length} of ${followed.frames.length} frames.` : "A click on a point, or Shift+P, follows it alone."),
+    ];
+}
+
+/** The distance between two pixels. @param {Session} session */
+function rulerPart(session) {
+    const { ruler } = session.store.state;
+    if (!ruler) return [];
+    return [el("h2", {}, "Distance"), el("p", { id: "distance" }, rulerWords(session)), el("button", { type: "button", "data-key": "ruler", onclick: () => session.store.set({ ruler: "" }) }, "Remove")];
 }
 
 /** What the difference of the two pictures comes to. @param {Session} session */

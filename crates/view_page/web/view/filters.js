@@ -3,6 +3,7 @@
 import { el } from "../shared/dom.js";
 import { OF_CLASS } from "./gallery_rows.js";
 import { barsOf } from "./histogram.js";
+import { marksPart } from "./marks_panel.js";
 import { brief } from "./numbers.js";
 
 /** Bars of a distribution. */
@@ -28,6 +29,7 @@ export function filterPanel(gallery, store) {
         ...(laws.length ? [choice("Check", "law", laws)] : []),
         ...fields,
         ...(fields.length ? [] : [el("p", { class: "quiet" }, gallery.rows.left ? "Reading …" : "Nothing is known of these frames to choose by. `enfilade verify` measures noise, clipping and more.")]),
+        ...marksPart(gallery.marks),
     ];
 }
 

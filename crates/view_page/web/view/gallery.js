@@ -2,8 +2,11 @@
 // be many. The list is one tab stop; arrow keys go from frame to frame, Enter opens one.
 
 import { byId, el } from "../shared/dom.js";
+import { say } from "../shared/say.js";
+import { toast } from "../shared/toast.js";
 import { fileUrl, thumbnailUrl } from "./catalogue.js";
 import { Rows, isRejected } from "./gallery_rows.js";
+import { Marks } from "./marks.js";
 import { faultText } from "./records.js";
 
 /** @typedef {import("./gallery_rows.js").Row} Row */
@@ -21,7 +24,8 @@ export class Gallery {
         this.session = session;
         this.store = session.store;
         this.changed = changed;
-        this.rows = new Rows(() => this.show());
+        this.marks = new Marks(session.dataset.name, () => this.show());
+        this.rows = new Rows(() => this.show(), (row) => this.marks.of(row));
         /** @type {Row[]} */
         this.shown = [];
         this.at = 0;
@@ -45,7 +49,7 @@ export class Gallery {
 
     /** Changes with what the panel beside shows. */
     get panelKey() {
-        return this.isShown ? `${this.rows.left} ${this.rows.classes.size} ${this.shown.length} ${[...this.rows.byScene.values()].reduce((sum, rows) => sum + rows.length, 0)}` : "";
+        return this.isShown ? `${this.marks.csv()} ${this.rows.left} ${this.rows.classes.size} ${this.shown.length} ${[...this.rows.byScene.values()].reduce((sum, rows) => sum + rows.length, 0)}` : "";
     }
 
     focus() {
@@ -101,7 +105,7 @@ export class Gallery {
         bar.replaceChildren(
             el("strong", { role: "status" }, this.rows.left ? `${counted(this.shown.length, "frame")}, reading ${this.rows.left} more scenes …` : counted(this.shown.length, "frame")),
             choice("of", "within", [["all", "the dataset"], ["scene", `scene ${state.scene}`], ["camera", `camera ${state.camera}`]]),
-            choice("show", "show", [["rendered", "rendered"], ["rejected", "rejected"], ["every", "all"]]),
+            choice("show", "show", [["rendered", "rendered"], ["rejected", "rejected"], ["every", "all"], ["tagged", "tagged"], ["dropped", "dropped"], ["kept", "not dropped"]]),
             choice("sort by", "sort", [["", "order of frames"], ...known.map((column) => /** @type {[string, string]} */ ([column.name, column.says.toLowerCase()]))]),
             el("button", { type: "button", "data-key": "down", title: "Turn the order", onclick: () => this.store.set({ down: !state.down }) }, (state.sort ? ["smallest first", "largest first"] : ["first to last", "last to first"])[Number(state.down)]),
             ...this.rows.problems.slice(0, 3).map(({ error, help }) => el("div", { class: "loss", role: "note" }, el("b", {}, "A file cannot be read"), el("code", {}, error), help)),
@@ -157,13 +161,25 @@ export class Gallery {
         const name = `${this.session.dataset.scenes.length > 1 ? `${row.scene} ` : ""}${row.camera} ${row.frame}`;
         const why = row.faults.map(faultText).concat(row.laws.map((law) => `check fails: ${law}`));
         const url = row.version ? thumbnailUrl(row.scene, row.camera, row.frame, row.version) : row.picture ? fileUrl(row.picture) : null;
+        const mark = this.marks.of(row);
         const told = by ? `${by.says} ${value === null ? "not known" : by.show(value)}` : "";
-        const element = el("div", { class: `place ${isRejected(row) ? "rejected" : ""}`, role: "option", id: `place-${i}`, title: [name, told, ...why].filter(Boolean).join("\n"),
+        const element = el("div", { class: `place ${isRejected(row) ? "rejected" : ""}`, role: "option", id: `place-${i}`, title: [name, mark, told, ...why].filter(Boolean).join("\n"),
             "aria-setsize": this.shown.length, "aria-posinset": i + 1, "data-frame": `${row.scene}/${row.camera}/${row.frame}` },
             url ? el("img", { src: url, alt: "", draggable: false }) : el("div", { class: "nothing quiet" }, "no picture"),
-            el("div", { class: "name" }, name), el("div", { class: "told number" }, by ? (value === null ? "–" : by.show(value)) : why.length ? el("span", { class: "bad" }, isRejected(row) ? "rejected" : "see why") : ""));
+            el("div", { class: "name" }, mark ? el("b", { class: mark === "dropped" ? "bad" : "good" }, mark, " ") : null, name), el("div", { class: "told number" }, by ? (value === null ? "–" : by.show(value)) : why.length ? el("span", { class: "bad" }, isRejected(row) ? "rejected" : "see why") : ""));
         element.addEventListener("click", () => this.open(i));
         return element;
+    }
+
+    /** Tags or drops the current frame, or takes that back. @param {import("./marks.js").Mark} mark */
+    mark(mark) {
+        const { scene, camera, frame } = this.store.state;
+        const place = this.isShown ? this.shown[this.at] : { scene, camera, frame };
+        if (!place) return;
+        const now = this.marks.turn(place, mark);
+        const text = `${place.camera} ${place.frame}: ${now ?? "not marked"}`;
+        if (this.isShown) say(text);
+        else toast(`${text}.`, `${this.marks.count("tagged")} tagged, ${this.marks.count("dropped")} dropped; the list is beside all frames.`, "good");
     }
 
     /** Opens a frame. @param {number} i */

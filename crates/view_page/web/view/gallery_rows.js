@@ -29,9 +29,10 @@ export const isRejected = (row) => row.faults.some((fault) => fault.rejects);
 export const OF_CLASS = "class_share";
 
 export class Rows {
-    /** @param {() => void} changed */
-    constructor(changed) {
+    /** @param {() => void} changed @param {(row: Row) => import("./marks.js").Mark | null} markOf */
+    constructor(changed, markOf) {
         this.changed = changed;
+        this.markOf = markOf;
         /** Shares of the classes that each frame shows, by scene, camera and frame; asked for when somebody chooses by class. @type {Map<string, Record<string, number>>} */
         this.shares = new Map();
         /** Classes that frames show, by number. @type {Map<number, import("./catalogue.js").SemanticClass>} */
@@ -123,12 +124,23 @@ export class Rows {
         return this.columns(state).find((column) => column.name === name) ?? null;
     }
 
+    /** @param {Row} row @param {State["show"]} show */
+    #isShown(row, show) {
+        switch (show) {
+            case "every": return true;
+            case "rendered": return row.version !== null;
+            case "rejected": return isRejected(row);
+            case "kept": return row.version !== null && this.markOf(row) !== "dropped";
+            default: return this.markOf(row) === show;
+        }
+    }
+
     /** The rows that a state's choices leave, before limits of columns. @param {State} state */
     chosen(state) {
         const scenes = state.within === "all" ? [...this.byScene.keys()].sort() : [state.scene];
         const all = scenes.flatMap((scene) => this.byScene.get(scene) ?? []);
         return all.filter((row) => (state.within !== "camera" || row.camera === state.camera)
-            && (state.show === "every" || (state.show === "rendered" ? row.version !== null : isRejected(row)))
+            && this.#isShown(row, state.show)
             && (!state.gate || row.faults.some((fault) => fault.gate === state.gate)) && (!state.law || row.laws.includes(state.law))
             && (!state.shows || (this.columns(state)[0].value(row) ?? 0) > 0));
     }

@@ -2,7 +2,6 @@
 
 import { byId, el } from "../shared/dom.js";
 
-
 /** @typedef {{ keys: string[], shown?: string, says: string, does: (event: KeyboardEvent) => void, repeats?: boolean }} Key */
 /** @typedef {{ title: string, keys: Key[] }} Group */
 
@@ -16,7 +15,7 @@ export function listenToKeys(groups) {
         const target = /** @type {HTMLElement} */ (event.target);
         const typing = target.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
         if (event.key === "Escape" && typing) target.blur();
-        if (typing || byId("help").open) return;
+        if (typing || document.querySelector("dialog[open]")) return;
         // A focused control keeps the keys that operate it.
         if (target.matches("button, a, tr, [role=tab], input") && ["Enter", " "].includes(event.key)) return;
         if (target.matches("input[type=range]") && event.key.startsWith("Arrow")) return;
@@ -35,7 +34,7 @@ export function showHelp(groups) {
     const names = (/** @type {Key} */ key) => (key.shown ?? key.keys.join("  ")).split("  ").flatMap((name) => [el("kbd", {}, name), " "]);
     dialog.replaceChildren(
         el("h1", { id: "help-title" }, "Keys"),
-        el("div", { class: "keys" }, ...groups.map((group) => el("section", {}, el("h3", {}, group.title), el("dl", {}, ...group.keys.flatMap((key) => [el("dt", {}, ...names(key)), el("dd", {}, key.says)]))))),
+        el("div", { class: "keys" }, ...groups.map((group) => el("section", {}, el("h2", {}, group.title), el("dl", {}, ...group.keys.flatMap((key) => [el("dt", {}, ...names(key)), el("dd", {}, key.says)]))))),
         el("p", { class: "quiet" }, "Mouse: wheel zooms, dragging moves, double click shows the whole picture, a click keeps an instance marked. The address contains everything that is shown."),
         el("form", { method: "dialog" }, el("button", { class: "primary", autofocus: true }, "Close")),
     );

@@ -1,7 +1,7 @@
 // Layers of frames: which are wanted, which are being fetched, which are here.
 //
 // The page says what it wants, most urgent first. Requests for what is no longer wanted are cancelled. On a slow connection a small
-// picture is fetched first and layers are compressed; the speed of the connection is measured.
+// picture is fetched first, layers are compressed, and nothing is fetched ahead before what is shown is there; the speed is measured.
 
 import { valuesOf } from "./numbers.js";
 
@@ -31,6 +31,8 @@ export class Loader {
         this.underWay = new Map();
         /** @type {{ key: string, place: LayerOfFrame }[]} */
         this.wanted = [];
+        /** So many of what is wanted are shown now. */
+        this.urgent = 0;
         this.bytes = 0;
         this.orders = 0;
         this.mbPerSecond = NaN;
@@ -62,10 +64,17 @@ export class Loader {
         return this.failed.get(keyOf(place));
     }
 
-    /** Says what is wanted, most urgent first. @param {LayerOfFrame[]} places */
-    want(places) {
+    /** True while something that is shown is not here in full and the line is slow, or not known to be fast: nothing else may share it. */
+    get isLineTaken() {
+        const isMissing = this.wanted.slice(0, this.urgent).some(({ key }) => this.here.get(key)?.step !== 1 && !this.failed.has(key));
+        return isMissing && !(this.mbPerSecond >= SLOW_MB_PER_S);
+    }
+
+    /** Says what is wanted, most urgent first. @param {LayerOfFrame[]} places @param {number} [urgent] how many of them are shown */
+    want(places, urgent = 0) {
         this.wanted = places.map((place) => ({ key: keyOf(place), place }));
-        const keys = new Set(this.wanted.map(({ key }) => key));
+        this.urgent = urgent;
+        const keys = new Set(this.wanted.slice(0, this.isLineTaken ? urgent : undefined).map(({ key }) => key));
         for (const [id, order] of this.underWay) {
             if (!keys.has(order.key)) order.worker.postMessage({ cancel: id });
         }
@@ -80,8 +89,9 @@ export class Loader {
     }
 
     #order() {
+        const { isLineTaken } = this;
         for (const [rank, { key, place }] of this.wanted.entries()) {
-            if (this.underWay.size >= MAX_UNDER_WAY) return;
+            if (this.underWay.size >= MAX_UNDER_WAY || (rank >= this.urgent && isLineTaken)) return;
             const known = this.here.get(key);
             if (known?.step === 1 || this.failed.has(key) || [...this.underWay.values()].some((order) => order.key === key)) continue;
             const small = !known && rank < 2 && !(this.mbPerSecond >= SLOW_MB_PER_S);

@@ -3,6 +3,7 @@
 import { boxLines, projector } from "./project.js";
 import { brief, pixelOf } from "./numbers.js";
 import { cssColor } from "./colors.js";
+import { drawRuler } from "./ruler.js";
 import { drawTracks } from "./tracks.js";
 
 /** @typedef {import("./painter.js").Rect} Rect */
@@ -41,8 +42,8 @@ export class Overlay {
     paint(stage, panes, places) {
         const { canvas, pen } = this;
         const { width, height } = stage.painter.canvas;
-        const { mode, wipe, boxes, names, tracks } = stage.store.state;
-        const needed = boxes || names || tracks || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
+        const { mode, wipe, boxes, names, tracks, ruler } = stage.store.state;
+        const needed = boxes || names || tracks || ruler !== "" || stage.session.marked > 0 || stage.pixel !== null || mode === "wipe" || places[0].zoom / stage.ratio >= ROOM_FOR_NUMBERS;
         // An empty canvas would cost time too: the browser composes it over the picture in every frame.
         canvas.style.display = needed ? "" : "none";
         if (!needed) return;
@@ -63,6 +64,7 @@ export class Overlay {
                 if (isOfFrame && (boxes || names)) for (const id of stage.session.instancesOf(side.frame, side.camera)) this.#box(stage, side, id, places[i], false);
                 if (isOfFrame && stage.session.marked) this.#box(stage, side, stage.session.marked, places[i], true);
                 if (isOfFrame && tracks) this.#tracks(stage, side, places[i]);
+                if (isOfFrame && ruler && i === 0) drawRuler(pen, stage.session, places[i], stage.ratio);
                 if (places[i].zoom / stage.ratio >= ROOM_FOR_NUMBERS) this.#numbers(stage, i, pane, places[i]);
             }
             if (stage.pixel) this.#cursor(stage, places[i], i);
@@ -135,7 +137,7 @@ export class Overlay {
     #tracks({ session, ratio }, { camera, frame, data }, { x, y, zoom }) {
         const followed = session.tracks.of(camera);
         const [height, width] = data.size.map((length) => length * zoom);
-        if (followed) drawTracks(this.pen, followed, frame, { x, y, width, height }, ratio);
+        if (followed) drawTracks(this.pen, followed, frame, { x, y, width, height }, ratio, session.store.state.track);
     }
 
     /** @param {Pictures} stage @param {Placement} place @param {number} pane */

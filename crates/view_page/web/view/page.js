@@ -12,16 +12,19 @@ import { filterPanel } from "./filters.js";
 import { Gallery } from "./gallery.js";
 import { listenToKeys, showHelp } from "./keys.js";
 import { GROUPS } from "./kinds.js";
+import { layerSearch } from "./layer_search.js";
 import { showDifferenceLegend, showLegend } from "./legend.js";
 import { showMessage } from "./message.js";
 import { objectsPanel } from "./objects.js";
 import { PairsPanel } from "./pairs.js";
 import { showReadout } from "./readout.js";
 import { framePanel, lossesOf, viewsPanel } from "./records.js";
+import { rulerWords } from "./ruler.js";
 import { savePicture } from "./save.js";
 import { TWO } from "./session.js";
 import { Stage } from "./stage.js";
 import { Strip } from "./strip.js";
+import { Tools } from "./tools.js";
 import { Travel } from "./travel.js";
 import { Tree } from "./tree.js";
 import { Watch } from "./watch.js";
@@ -39,6 +42,10 @@ export class Page {
         this.travel = new Travel(session);
         this.pairs = new PairsPanel(session, () => this.panel());
         this.gallery = new Gallery(session, () => this.panel());
+        this.findLayer = layerSearch(session);
+        this.tools = new Tools(session, this.stage);
+        /** Scene, camera and frame of what was measured; empty while an address is followed. */
+        this.place = "";
         /** The scene in 3D, once it was asked for. @type {import("./space.js").Space | null} */
         this.space = null;
         /** @type {import("./catalogue.js").FrameFacts | null} */
@@ -111,12 +118,26 @@ export class Page {
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
+        this.#keepRuler(state, has("ruler"));
+        if (has("ruler")) this.session.refresh();
+        if (has("frame", "track")) this.tools.followTrack();
+        if (has("frame", "layer", "mode", "camera")) this.tools.tell();
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
         if (has("view")) this.space?.look();
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
+    }
+
+    /** What was measured is of one frame, and ends with it. @param {State} state @param {boolean} isNew */
+    #keepRuler({ scene, camera, frame, ruler }, isNew) {
+        if (isNew) this.place = "";
+        if (!scene || !camera) return;
+        const place = `${scene}/${camera}/${frame}`;
+        const isOther = this.place !== "" && this.place !== place;
+        this.place = place;
+        if (ruler && isOther) this.store.set({ ruler: "" }, { step: false });
     }
 
     /** Another camera gives the other picture. */
@@ -164,11 +185,25 @@ export class Page {
         const sides = session.sides();
         for (const i of [0, 1]) showLegend(/** @type {HTMLElement} */ (byId(`heading-${i}`).querySelector(".legend")), session, sides[i]);
         showDifferenceLegend(/** @type {HTMLElement} */ (byId("heading-2").querySelector(".legend")), session);
-        showMessage(byId("message"), session.problem ?? session.noDifference ?? sides.map((side) => session.failureOf(side)).find((one) => one) ?? null);
+        this.#message(sides);
         byId("busy").hidden = session.complete && !travel.direction;
         byId("busy").textContent = travel.direction && travel.shown > 3 ? `${travel.rate.toFixed(0)} frames/s` : session.complete ? "" : "reading …";
         this.readout();
         this.panel();
+    }
+
+    /** Says what cannot be shown: of one of two pictures in its place, else over all. @param {import("./session.js").Side[]} sides */
+    #message(sides) {
+        const { session, stage, store } = this;
+        const failures = sides.map((side) => session.failureOf(side) ?? null);
+        const general = session.problem ?? session.noDifference;
+        const failed = failures.findIndex((one) => one);
+        const element = byId("message");
+        const isOfOne = !general && sides.length > 1 && failed >= 0 && failures.filter((one) => one).length === 1 && store.state.mode !== "difference";
+        const { x, y, width, height } = isOfOne ? stage.areaOf(failed) : { x: 0, y: 0, width: 0, height: 0 };
+        const px = (/** @type {number} */ device) => (isOfOne ? `${device / stage.ratio}px` : "");
+        Object.assign(element.style, { left: px(x + width / 2), top: px(y + height / 2), maxWidth: px(0.94 * width) });
+        showMessage(element, general ?? failures[failed] ?? null);
     }
 
     readout() {
@@ -182,7 +217,7 @@ export class Page {
         const panel = byId("panel");
         if (this.travel.direction && this.travel.held) return;
         const tab = state.mode === "gallery" ? "filter" : state.tab;
-        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey, this.pairs.key]);
+        const key = JSON.stringify([tab, state, session.sides().map((side) => side.data?.step), state.ruler && rulerWords(session), !!session.camera && state.tracks && !!session.tracks.of(session.camera), !!session.idsOf(state.frame), !!session.layer(state.frame, "semantic"), !!this.known, this.gallery.panelKey, this.pairs.key]);
         if (key === this.panelKey) return;
         const typing = panel.contains(document.activeElement) && document.activeElement?.matches("input");
         if (typing && this.panelTab === tab && this.panelFrame === state.frame) return;
@@ -272,6 +307,7 @@ export class Page {
         const commands = commandsOf(this);
         listenToKeys(commands);
         byId("menu").addEventListener("click", () => byId("menu").hidePopover());
+        byId("find-layer").addEventListener("click", () => this.findLayer());
         byId("help-button").addEventListener("click", () => showHelp(commands));
         byId("flicker").addEventListener("click", () => store.set({ flicker: !store.state.flicker }));
         byId("save").addEventListener("click", () => this.save());

@@ -18,6 +18,8 @@ import { Tracks } from "./tracks.js";
 
 /** Layers that give names to a pixel, in the order in which they are told. */
 export const NAMING = ["render_entity_id", "semantic", "semantic_instance", "material_id"];
+/** The layer that says where the surface of a pixel is. */
+export const PLACES = "position";
 /** Frames that are fetched ahead in the direction of travel, and behind. */
 const AHEAD = 5, BEHIND = 1;
 
@@ -233,8 +235,9 @@ export class Session {
             ...shown.map((side) => this.#place(side.frame, side.layer, side.camera)),
             ...ahead(neighbours.slice(0, 2)),
             ...named(this.layersOf(frame)).map((layer) => this.#place(frame, layer)),
+            ...(this.store.state.ruler && this.layersOf(frame).includes(PLACES) ? [this.#place(frame, PLACES)] : []),
             ...ahead(neighbours.slice(2)),
-        ]);
+        ], shown.length);
         this.changed();
     }
 

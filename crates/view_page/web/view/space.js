@@ -43,6 +43,8 @@ export class Space {
         /** @type {Partial<Record<SpacePart, Group>>} */
         this.groups = {};
         this.coloring = "class";
+        /** True when somebody has chosen the colours; else they are of what the scene has. */
+        this.isColoringChosen = false;
         this.above = false;
         /** The camera is the frame's, or on its way there. */
         this.atFrame = true;
@@ -143,6 +145,7 @@ export class Space {
     /** Colours the surfaces. @param {string} coloring */
     color(coloring) {
         this.coloring = coloring;
+        this.isColoringChosen = true;
         this.#colors();
     }
 
@@ -193,6 +196,8 @@ export class Space {
         this.stage.clear();
         // Beside surfaces the points of one frame are a choice; without them they are all there is.
         this.on.points = !scene.has_geometry;
+        const { semantic, instance } = scene.objects;
+        if (!this.isColoringChosen) this.coloring = semantic.some((id) => id > 0) ? "class" : instance.some((id) => id > 0) ? "instance" : "part";
         this.#choices();
         this.look(true);
         if (!scene.has_geometry) return;

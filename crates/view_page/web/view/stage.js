@@ -5,12 +5,16 @@ import { exposureOf, TONES } from "./exposure.js";
 import { rangeOf } from "./kinds.js";
 import { Painter } from "./painter.js";
 import { Overlay } from "./overlay.js";
+import { trackAt } from "./tracks.js";
 
 /** @typedef {import("./state.js").State} State */
 /** @typedef {import("./numbers.js").LayerData} LayerData */
 /** @typedef {import("./painter.js").Rect} Rect */
 /** @typedef {import("./session.js").Side} Side */
 /** @typedef {import("./session.js").Pixel} Pixel */
+
+/** A click so near to a point that is followed picks it, CSS pixels. */
+const REACH_PX = 8;
 
 /** CSS pixels per pixel. */
 const MAX_ZOOM = 128;
@@ -143,6 +147,21 @@ export class Stage {
         this.refresh();
     }
 
+    /** Where the picture of a side is, device pixels. @param {number} side */
+    areaOf(side) {
+        return this.#clip(side, this.panes()[this.store.state.mode === "side" ? side : 0]);
+    }
+
+    /** Moves the pixel whose values are read, from the middle of the picture on. @param {number} dx @param {number} dy */
+    movePixel(dx, dy) {
+        const [height, width] = this.pictureSize();
+        const { x, y, side } = this.pixel ?? { x: Math.floor(width / 2) - dx, y: Math.floor(height / 2) - dy, side: 0 };
+        this.cursor = null;
+        this.pixel = { x: Math.min(width - 1, Math.max(0, x + dx)), y: Math.min(height - 1, Math.max(0, y + dy)), side };
+        this.hovered(this.pixel);
+        this.refresh();
+    }
+
     /** @param {number} side @param {Rect} pane @returns {Rect} */
     #clip(side, pane) {
         const { mode, wipe } = this.store.state;
@@ -258,11 +277,25 @@ export class Stage {
             this.#hover([x, y]);
         });
         element.addEventListener("pointerup", () => {
-            if (drag && !drag.moved) this.session.pin(this.pixel);
+            if (drag && !drag.moved && !this.#pickTrack(drag.x, drag.y)) this.session.pin(this.pixel);
             drag = null;
         });
         element.addEventListener("pointerleave", () => this.#hover(null));
         element.addEventListener("dblclick", () => this.store.set({ zoom: 0, x: 0.5, y: 0.5 }));
+    }
+
+    /** Picks the point that is followed under the cursor, or lets it go; false where there is none. @param {number} x CSS pixels @param {number} y */
+    #pickTrack(x, y) {
+        const { state } = this.store;
+        const { x: px, y: py, side } = this.pixelAt(x, y);
+        const shown = this.last[side];
+        const followed = state.tracks && shown ? this.session.tracks.of(shown.camera) : null;
+        if (!followed) return false;
+        const [height, width] = this.pictureSize();
+        const reach = (REACH_PX * this.ratio) / this.placement(this.panes()[state.mode === "side" ? side : 0]).zoom;
+        const track = trackAt(followed, shown.frame, [px / width, py / height], [reach / width, reach / height]);
+        if (track) this.store.set({ track: track === state.track ? 0 : track });
+        return track > 0;
     }
 
     /** @param {[number, number] | null} cursor */

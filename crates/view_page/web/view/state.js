@@ -25,6 +25,8 @@
  * @property {boolean} boxes of instances are always drawn
  * @property {boolean} names stand on the boxes
  * @property {boolean} tracks points that are followed are drawn over the picture
+ * @property {number} track point that is followed alone, from 1; 0: all
+ * @property {string} ruler the pixels that a distance is measured between: x,y,x,y; of one x,y where the other is to come; empty: none
  * @property {number} class that alone is shown in colour; 0: all
  * @property {number} instance that stays marked; 0: none
  * @property {string} tab of the panel on the right
@@ -32,7 +34,7 @@
  * @property {string} sort column of the gallery; empty: order of the frames
  * @property {boolean} down the gallery begins with the largest
  * @property {"all" | "scene" | "camera"} within frames of which the gallery shows
- * @property {"rendered" | "rejected" | "every"} show which frames the gallery shows
+ * @property {"rendered" | "rejected" | "every" | "tagged" | "dropped" | "kept"} show which frames the gallery shows
  * @property {string} gate that the gallery's frames do not pass
  * @property {string} law that the gallery's frames break
  * @property {number} shows class that the gallery's frames show; 0: any
@@ -42,7 +44,7 @@
 /** @type {State} */
 const BEGINNING = {
     scene: "", camera: "", frame: -1, layer: "color", other: "depth_meters", otherFrame: null, otherCamera: "", mode: "one", flicker: false, wipe: 0.5, zoom: 0, x: 0.5, y: 0.5,
-    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, tracks: false, class: 0, instance: 0, tab: "display", view: "",
+    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, tracks: false, track: 0, ruler: "", class: 0, instance: 0, tab: "display", view: "",
     sort: "", down: false, within: "all", show: "rendered", gate: "", law: "", shows: 0, limits: {},
 };
 
@@ -53,7 +55,7 @@ const CHOICES = {
     expose: ["frame", "trajectory", "fixed"],
     tab: ["display", "objects", "frame", "views", "pairs"],
     within: ["all", "scene", "camera"],
-    show: ["rendered", "rejected", "every"],
+    show: ["rendered", "rejected", "every", "tagged", "dropped", "kept"],
 };
 
 /** Words whose change is a step that Back takes back; others change what stands there. */

@@ -48,7 +48,7 @@ export class Strip {
             const { frame, layers, faults } = frames[i];
             const state = `${faults.some((fault) => fault.rejects) ? "rejected" : ""} ${layers.length ? "" : "planned"}`;
             const why = faults.length ? `: ${faults.map(faultText).join("; ")}` : layers.length ? "" : ": not rendered";
-            const button = el("button", { type: "button", class: `thumb ${state}`, role: "option", tabIndex: -1, title: `Frame ${frame}${why}`, "aria-label": `Frame ${frame}${why}`, "data-frame": frame, style: `left:${i * pitch}px`,
+            const button = el("button", { type: "button", class: `thumb ${state}`, role: "option", id: `thumb-${frame}`, tabIndex: -1, title: `Frame ${frame}${why}`, "aria-label": `Frame ${frame}${why}`, "data-frame": frame, style: `left:${i * pitch}px`,
                 onclick: () => (layers.length ? this.session.store.set({ frame }) : this.session.store.set({ tab: "views" })) },
                 layers.length ? el("img", { src: thumbnailUrl(this.session.scene?.name ?? "", this.session.camera?.name ?? "", frame), alt: "", loading: "lazy", draggable: false }) : null, el("span", {}, String(frame)));
             this.there.set(i, button);
@@ -73,5 +73,7 @@ export class Strip {
     #select() {
         const { frame } = this.session.store.state;
         for (const element of this.there.values()) element.setAttribute("aria-selected", String(Number(element.dataset.frame) === frame));
+        if ([...this.there.values()].some((element) => Number(element.dataset.frame) === frame)) this.element.setAttribute("aria-activedescendant", `thumb-${frame}`);
+        else this.element.removeAttribute("aria-activedescendant");
     }
 }

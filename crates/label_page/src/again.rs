@@ -1,0 +1,153 @@
+//! "The same again": moved copies of labelled pieces are found by their shape, and labelled alike.
+//!
+//! A copy has a piece for each of the pieces, of the same shape, and one rigid motion takes all of them there. The motion of a piece follows
+//! from corresponding corners, so copies must list their faces in one order, as those have that a program placed several times.
+
+use super::action::{Context, Refusal};
+use super::pieces::Pieces;
+use enfilade_label::annotation::Edit;
+use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_scene::PartLabel;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Corners may be so far from where the motion takes them: the rounding of files, metres and as a share of the distance from the anchor.
+const TOLERANCE_M: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-4;
+/// Corners nearer to a line than this share of the size determine no rotation.
+const FLAT: f64 = 1e-3;
+
+impl Context<'_> {
+    /// The edit that labels the moved copies of pieces.
+    ///
+    /// # Errors
+    /// When the pieces have no classes, there is no copy without classes, or there are not enough instance numbers.
+    pub(super) fn same_again(&self, group: &[u32]) -> Result<Edit, Refusal> {
+        let list = self.pieces.list();
+        let label = |piece: u32| list[piece as usize].label;
+        if let Some(bare) = group.iter().find(|&&piece| label(piece).semantic < 1) {
+            let error = format!("{:?} has no class to give to copies", list[*bare as usize].name);
+            return Err(Refusal::conflict(error, "label the selection first"));
+        }
+        let Some(first) = group.first() else { return Err(Refusal::request("pieces is empty; expected the pieces to look for")) };
+        let name = &list[*first as usize].name;
+        let all = copies(self.pieces, group);
+        let found: Vec<&Vec<u32>> = all.iter().filter(|copy| copy.iter().all(|&piece| label(piece).semantic < 1)).collect();
+        if found.is_empty() {
+            let error = match all.len() {
+                0 => format!("there is no moved copy of {name:?}"),
+                many => format!("all {many} copies of {name:?} have classes already"),
+            };
+            return Err(Refusal::conflict(error, "copies have the same shapes in the same arrangement, and faces in the same order"));
+        }
+        let numbers: BTreeSet<i16> = group.iter().map(|&piece| label(piece).instance).filter(|&instance| instance >= 1).collect();
+        let wanted = numbers.len() * found.len();
+        let mut next = self.instances(wanted)?;
+        let (mut pieces, mut labels): (Vec<u32>, Vec<PartLabel>) = (Vec::new(), Vec::new());
+        for copy in &found {
+            let own: BTreeMap<i16, i16> = numbers.iter().copied().zip(next..).collect();
+            next += numbers.len() as i16;
+            pieces.extend(copy.iter());
+            labels.extend(group.iter().map(|&piece| {
+                let PartLabel { semantic, instance } = label(piece);
+                PartLabel { semantic, instance: own.get(&instance).copied().unwrap_or(PartLabel::NONE.instance) }
+            }));
+        }
+        let (semantic, instance) = labels.iter().map(|label| (label.semantic, label.instance)).unzip();
+        let copies = if found.len() == 1 { "1 copy".into() } else { format!("{} copies", found.len()) };
+        let description = format!("The same again: {copies} of {name}");
+        Ok(Edit::Label { description, pieces, semantic, instance, next_instance: self.next_instance + wanted as i32 })
+    }
+}
+
+/// The moved copies of a group of pieces: in each the piece for every piece of the group, in its order. No two share a piece.
+fn copies(pieces: &Pieces, group: &[u32]) -> Vec<Vec<u32>> {
+    let list = pieces.list();
+    let key = |piece: u32| list[piece as usize].measure.geometry_key;
+    let mut of_shape: HashMap<u32, Vec<u32>> = HashMap::new();
+    (0..list.len() as u32).filter(|piece| !group.contains(piece)).for_each(|piece| of_shape.entry(key(piece)).or_default().push(piece));
+    let others = |piece: u32| of_shape.get(&key(piece)).map_or(&[][..], Vec::as_slice);
+    // The shape that is rarest elsewhere leaves the fewest places to look at; of those the one with most faces.
+    let anchor = group.iter().copied().min_by_key(|&piece| (others(piece).len(), usize::MAX - list[piece as usize].faces.len(), piece));
+    let Some(anchor) = anchor else { return Vec::new() };
+    let corners: Vec<Vec<DVec3>> = group.iter().map(|&piece| corners(pieces, piece)).collect();
+    let mut used: BTreeSet<u32> = BTreeSet::new();
+    let mut found = Vec::new();
+    let at = group.iter().position(|&piece| piece == anchor).unwrap_or(0);
+    for &there in others(anchor) {
+        let Some(motion) = motion(&corners[at], &self::corners(pieces, there)) else { continue };
+        let fits = |i: usize, piece: u32| is_moved(&corners[i], &self::corners(pieces, piece), &motion, corners[at][0]);
+        let mut copy = Vec::new();
+        for (i, &piece) in group.iter().enumerate() {
+            let free = |other: &&u32| !used.contains(other) && !copy.contains(*other);
+            let near = |other: &&u32| is_near(list[**other as usize].measure.min, &corners[i], &motion);
+            let place = if i == at {
+                Some(there).filter(|there| !used.contains(there))
+            } else {
+                others(piece).iter().filter(free).filter(near).copied().find(|&other| fits(i, other))
+            };
+            let Some(place) = place else { break };
+            copy.push(place);
+        }
+        if copy.len() == group.len() && fits(at, there) {
+            used.extend(&copy);
+            found.push(copy);
+        }
+    }
+    found
+}
+
+/// The corners of a piece's faces, in order.
+fn corners(pieces: &Pieces, piece: u32) -> Vec<DVec3> {
+    let of_face = |&face: &u32| pieces.scene().corners[face as usize];
+    pieces.list()[piece as usize].faces.iter().flat_map(of_face).map(|corner| corner.as_dvec3()).collect()
+}
+
+/// True where the lower corner of a piece's bounds is about where that of the moved corners is: most pieces are told apart by this alone.
+fn is_near(min: [f32; 3], corners: &[DVec3], motion: &DAffine3) -> bool {
+    let moved = corners.iter().fold(DVec3::INFINITY, |low, &corner| low.min(motion.transform_point3(corner)));
+    moved.distance(DVec3::from_array(min.map(f64::from))) < 4.0 * TOLERANCE_M + TOLERANCE * moved.length()
+}
+
+/// True where the motion takes each corner to its counterpart.
+fn is_moved(from: &[DVec3], to: &[DVec3], motion: &DAffine3, origin: DVec3) -> bool {
+    let fits = |(&a, &b): (&DVec3, &DVec3)| motion.transform_point3(a).distance(b) <= TOLERANCE_M + TOLERANCE * a.distance(origin);
+    from.len() == to.len() && from.iter().zip(to).all(fits)
+}
+
+/// The rigid motion that takes corners to their counterparts; `None` where they determine none.
+fn motion(from: &[DVec3], to: &[DVec3]) -> Option<DAffine3> {
+    let first = *from.first().filter(|_| from.len() == to.len())?;
+    let farthest = |far: &dyn Fn(DVec3) -> f64| (0..from.len()).max_by(|&a, &b| far(from[a]).total_cmp(&far(from[b])));
+    let second = farthest(&|corner| corner.distance_squared(first))?;
+    let along = (from[second] - first).try_normalize()?;
+    let third = farthest(&|corner| (corner - first).reject_from_normalized(along).length_squared())?;
+    if (from[third] - first).reject_from_normalized(along).length() < FLAT * from[second].distance(first) {
+        return None;
+    }
+    let rotation = frame(to[0], to[second], to[third])? * frame(first, from[second], from[third])?.transpose();
+    Some(DAffine3::from_mat3_translation(rotation, to[0] - rotation * first))
+}
+
+/// Axes by three points: along the first two, and square to all.
+fn frame(origin: DVec3, along: DVec3, aside: DVec3) -> Option<DMat3> {
+    let x = (along - origin).try_normalize()?;
+    let z = x.cross(aside - origin).try_normalize()?;
+    Some(DMat3::from_cols(x, z.cross(x), z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_is_found_by_corners_and_a_mirror_is_none() {
+        let from = [DVec3::ZERO, DVec3::X, DVec3::new(0.2, 2.0, 0.1), DVec3::new(0.5, 0.5, 1.0)];
+        let moved = DAffine3::from_mat3_translation(DMat3::from_rotation_z(1.2) * DMat3::from_rotation_x(0.3), DVec3::new(5.0, -2.0, 1.0));
+        let to = from.map(|corner| moved.transform_point3(corner));
+        let found = motion(&from, &to).unwrap();
+        assert!(is_moved(&from, &to, &found, from[0]) && found.abs_diff_eq(moved, 1e-12));
+        let mirrored = from.map(|corner| corner * DVec3::new(1.0, 1.0, -1.0));
+        assert!(motion(&from, &mirrored).is_none_or(|found| !is_moved(&from, &mirrored, &found, from[0])));
+        assert!(motion(&[DVec3::ZERO, DVec3::X, DVec3::X], &[DVec3::ZERO, DVec3::Y, DVec3::Y]).is_none(), "a line turns freely");
+    }
+}
