@@ -67,7 +67,7 @@ fn range(groups: &[Group], all: &[Vec<Solid>], touching: &BTreeSet<[usize; 2]>, 
 fn end(passage: &Passage, joint: Hold, limit: f64, step: f64) -> (f64, Option<usize>) {
     let count = (limit.abs() / step).ceil() as usize;
     let state = |k: usize| if k == count { limit } else { limit.signum() * step * k as f64 };
-    let hit = |state: f64| passage.hit(joint.from_rest(state));
+    let hit = |state: f64| passage.hit(joint.way_to(state));
     let Some((first, mut by)) = (1..=count).find_map(|k| Some((k, hit(state(k))?))) else { return (limit, None) };
     let (mut free, mut blocked) = (state(first - 1), state(first));
     for _ in 0..HALVINGS {
@@ -108,7 +108,7 @@ impl Hold {
     }
 
     /// What takes its body from rest to a state.
-    fn from_rest(self, state: f64) -> DAffine3 {
+    fn way_to(self, state: f64) -> DAffine3 {
         match self {
             Self::Hinge { point, axis, .. } => {
                 DAffine3::from_translation(point)
