@@ -110,7 +110,7 @@ mod tests {
         let [lies, hangs] = [-0.2, 0.0].map(|x| block(DVec3::new(x, -0.05, 0.0), DVec3::new(if x < 0.0 { 0.2 } else { 0.1 }, 0.1, 0.05)));
         let moments = Moments::joined(&[lies.moments(0.05), hangs.moments(1.0)]);
         let thing = |moments| Thing { solids: vec![lies.clone(), hangs.clone()], moments };
-        let moves = |moments| unrest(&[table.clone()], &[thing(moments)], 0.3)[0].farthest_m;
+        let moves = |moments| unrest(std::slice::from_ref(&table), &[thing(moments)], 0.3)[0].farthest_m;
         assert!(moves(None) < 3e-4 && moves(moments) > 0.02, "{} and {}", moves(None), moves(moments));
     }
 }
