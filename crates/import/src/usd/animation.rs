@@ -74,8 +74,11 @@ impl Animations {
         };
         let placed = (&state.file_from_parent, origin);
         let shape = |time_s: f64, _| {
-            let (code, shape) = (time_s * rate, own(time_s * rate));
-            stretch.as_ref().map_or(Some(shape.clone()), |stretch| stretch.shape(code, shape, placed)).ok_or(())
+            let code = time_s * rate;
+            match stretch {
+                Some(stretch) => stretch.shape(code, own(code), placed).ok_or(()),
+                None => Ok(own(code)),
+            }
         };
         let length = length_in(&state.file_from_parent, a.meters_per_unit());
         let problem = match shapes(codes.iter().map(|code| code / rate).collect(), false, length, shape) {
