@@ -164,9 +164,12 @@ impl Life {
         let furniture: BTreeSet<String> = stage.bodies.iter().map(|body| body.name.clone()).collect();
         beds::sleep_in(&mut stage, &self.rng, self.lived_in);
         askew::move_about(&mut stage, &mut self.floors, &self.rng, self.lived_in);
-        let moved = stage.moved().cloned().collect();
-        for object in ways::closed_by(&stage, moved) {
-            stage.put_back(&object);
+        // What is put back may close a way with what is not.
+        loop {
+            let back = ways::closed_by(&stage, stage.moved().cloned().collect());
+            if !back.iter().fold(false, |any, object| stage.put_back(object) || any) {
+                break;
+            }
         }
         ajar::leave_ajar(&mut stage, &mut self.floors, &self.rng, &self.opened, self.lived_in);
         // Cloth falls on what lies there already.
