@@ -167,7 +167,7 @@ impl Life {
         // What is put back may close a way with what is not.
         loop {
             let back = ways::closed_by(&stage, stage.moved().cloned().collect());
-            if !back.iter().fold(false, |any, object| stage.put_back(object) || any) {
+            if back.iter().map(|object| stage.put_back(object)).filter(|is_back| *is_back).count() == 0 {
                 break;
             }
         }
