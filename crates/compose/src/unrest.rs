@@ -23,7 +23,7 @@ pub struct Way {
 /// A thing of convex solids.
 #[derive(Clone, Debug, Default)]
 pub struct Thing {
-    /// Its shape.
+    /// The shape.
     pub solids: Vec<Solid>,
     /// How its mass is distributed; as that of wood unless given.
     pub moments: Option<Moments>,

@@ -6,7 +6,6 @@
 
 use crate::check::bodies::{bodies_of, body_named};
 use crate::check::moving::{Moving, movers};
-use crate::check::sweep::to_state;
 use crate::states::States;
 use crate::{Home, HomeJoint};
 use enfilade_furniture::meet::Body;
@@ -69,7 +68,7 @@ fn nearest(moving: &Moving, asked: f64, bodies: &[Body]) -> (f64, Option<String>
 /// Makes a state of the joint of this number the rest of what moves by it.
 pub(crate) fn set(home: &mut Home, number: usize, body: BodyId, parts: &[PartId], state: f64) {
     let body = &mut home.scene.bodies[body as usize];
-    let map = to_state(&body.motion.states, state);
+    let map = body.motion.states.map_to(state);
     body.limits = body.limits.map(|limits| limits.map(|limit| limit - state));
     for &part in parts {
         let placed = &mut home.scene.parts[part as usize].world_from_mesh;

@@ -31,11 +31,11 @@ pub enum CarryError {
 
 /// A part of the earlier version that had a label.
 pub struct Old {
-    /// Its name.
+    /// Name of the part.
     pub name: String,
     /// Shape and place, where they are known.
     pub known: Option<PartShape>,
-    /// Its label: of several, the first.
+    /// The part's label: of several, the first.
     pub label: PartLabel,
     /// True where its pieces have several labels.
     pub is_mixed: bool,

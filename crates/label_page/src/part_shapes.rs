@@ -15,7 +15,7 @@ const COLUMNS: [&str; 8] = ["object_name", "faces", "edges_m", "root_area_m", "s
 /// A part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartShape {
-    /// Its name.
+    /// Name of the part.
     pub name: String,
     /// What does not change when it is moved.
     pub shape: ShapeInvariants,

@@ -74,7 +74,7 @@ pub struct Reviews {
 /// What is said of a piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
-    /// Its state.
+    /// The state of the piece.
     pub state: ReviewState,
     /// For people; may be empty.
     pub note: String,

@@ -90,11 +90,16 @@ impl Session {
             known: HashMap::new(),
             recent: VecDeque::new(),
         };
-        // Everything that was done since the scene was first opened is done again.
-        for entry in entries {
-            let problem = |problem: String, session: &Self| session.log.problem(entry.revision, problem);
-            session.check(&entry.edit).map_err(|e| problem(e, &session))?;
-            session.perform(entry);
+        // Everything that was done since the scene was first opened is done again; only the changes that are kept are told.
+        let named = entries.iter().enumerate().rev().filter(|(_, entry)| entry.id.is_some());
+        let told_from = named.map(|(i, _)| i).nth(KEPT - 1).unwrap_or(0);
+        for (i, entry) in entries.into_iter().enumerate() {
+            session.check(&entry.edit).map_err(|problem| session.log.problem(entry.revision, problem))?;
+            if i < told_from {
+                session.take(entry);
+            } else {
+                session.perform(entry);
+            }
         }
         Ok((session, warning))
     }
@@ -170,9 +175,13 @@ impl Session {
         };
         let Some(edit) = edit else { return Ok(Change::default().told(&self.standing(), &client, who, "Nothing to change".into())) };
         self.check(&edit).map_err(|problem| Refusal::conflict(problem, "look at the history of the scene"))?;
-        // The log is written before the pieces change: what was sent to pages survives a crash.
+        self.log_and_perform(edit, Author { client, who, id }).map_err(ActionError::Log)
+    }
+
+    /// Does an edit that was checked. The log is written before the pieces change: what was sent to pages survives a crash.
+    fn log_and_perform(&mut self, edit: Edit, Author { client, who, id }: Author) -> Result<Change, LogError> {
         let entry = Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client, who, id, edit };
-        self.log.append(&entry).map_err(ActionError::Log)?;
+        self.log.append(&entry)?;
         Ok(self.perform(entry))
     }
 
@@ -189,11 +198,7 @@ impl Session {
         let (semantic, instance) = labels.iter().map(|label| (label.semantic, label.instance)).unzip();
         let description = format!("Carried over: the labels of {} parts", pieces.len());
         let edit = Edit::Label { description, pieces, semantic, instance, next_instance: self.next_instance.max(last + 1) };
-        let entry =
-            Entry { revision: self.revision + 1, time: clock::iso(clock::now_s()), client: "carry".into(), who: None, id: None, edit };
-        self.log.append(&entry)?;
-        self.perform(entry);
-        Ok(())
+        self.log_and_perform(edit, Author { client: "carry".into(), ..Author::default() }).map(drop)
     }
 
     /// The change that an edit made when it came first.
@@ -213,12 +218,28 @@ impl Session {
         edit.check(&Before { pieces: self.pieces.list().len(), piece_of_face: self.pieces.of_face(), steps: &self.steps })
     }
 
-    /// Does an edit that was checked.
+    /// Does an edit of the log, and keeps the change for pages that send it again.
     fn perform(&mut self, entry: Entry) -> Change {
-        let Entry { revision, time, client, who, id, edit } = entry;
+        let (client, who, is_named) = (entry.client.clone(), entry.who.clone(), entry.id.is_some());
+        let (change, description) = self.take(entry);
+        let change = change.told(&self.standing(), &client, who, description);
+        if is_named {
+            self.recent.push_back(change.clone());
+            if self.recent.len() > KEPT {
+                self.recent.pop_front();
+            }
+        }
+        change
+    }
+
+    /// Does an edit of the log: what it changes, and what was done.
+    fn take(&mut self, Entry { revision, time, who, id, edit, .. }: Entry) -> (Change, String) {
         self.revision = revision;
-        let (change, description) = match edit {
-            Edit::Undo | Edit::UndoOf { .. } => self.undo(&edit, who.clone()),
+        if let Some(id) = id {
+            self.known.insert(id, revision);
+        }
+        match edit {
+            Edit::Undo | Edit::UndoOf { .. } => self.undo(&edit, who),
             Edit::Redo | Edit::RedoOf { .. } => match self.steps.redo(&edit) {
                 Some(step) => {
                     let (description, of) = (format!("Done again: {}", step.edit.description()), step.who.clone());
@@ -228,19 +249,9 @@ impl Session {
             },
             edit => {
                 let description = edit.description().to_string();
-                let step = Step { edit, revision, begun: revision, time, who: who.clone(), before: Vec::new(), first_new: 0 };
-                (self.apply(step), description)
-            }
-        };
-        let change = change.told(&self.standing(), &client, who, description);
-        if let Some(id) = id {
-            self.known.insert(id, self.revision);
-            self.recent.push_back(change.clone());
-            if self.recent.len() > KEPT {
-                self.recent.pop_front();
+                (self.apply(Step::new(edit, revision, time, who)), description)
             }
         }
-        change
     }
 
     fn undo(&mut self, edit: &Edit, by: Option<String>) -> (Change, String) {

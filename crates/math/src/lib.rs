@@ -17,6 +17,7 @@ mod rgb;
 mod sampler;
 mod spline;
 pub mod warp;
+mod way;
 
 pub use bounds::Bounds3;
 pub use distribution::{Distribution1, Distribution2};
@@ -30,6 +31,7 @@ pub use ray::{Ray, offset_origin};
 pub use rgb::{Rgb, linear_from_srgb, srgb_from_linear};
 pub use sampler::Sampler;
 pub use spline::NaturalSpline;
+pub use way::free_way;
 
 /// A point in another space: in double precision, rounded once.
 ///

@@ -7,7 +7,8 @@ use crate::bodies::{Group, Hold};
 use crate::model::Piece;
 use crate::rest::{solids, told};
 use enfilade_compose::{Passage, Solid};
-use enfilade_math::{DAffine3, DQuat, DVec3};
+use enfilade_math::{DAffine3, DVec3, free_way};
+use enfilade_scene::BodyStates;
 use std::collections::BTreeSet;
 
 /// Way of the farthest corner from one state that is tried to the next, metres.
@@ -59,25 +60,10 @@ fn range(groups: &[Group], all: &[Vec<Solid>], touching: &BTreeSet<[usize; 2]>, 
     let others = (0..groups.len()).filter(|&other| !tree.contains(&other) && !touches(other) && !bears(other));
     let passage = Passage::new(&moving, others.map(|other| (other, all[other].as_slice())));
     let reach_m = joint.reach_m(moving.iter().flat_map(|solid| &solid.corners));
-    let ends = limits.map(|limit| end(&passage, joint, limit, STEP_M / reach_m.max(STEP_M)));
+    let end = |limit: f64| free_way(limit, STEP_M / reach_m.max(STEP_M), HALVINGS, |state| passage.hit(joint.way_to(state)));
+    // Rest is where it is.
+    let ends = limits.map(|limit| if limit == 0.0 { (limit, None) } else { end(limit) });
     Some(Range { limits: ends.map(|(state, _)| state), reach_m, by: ends[1].1.or(ends[0].1) })
-}
-
-/// The farthest free state from rest towards a limit, and what ends the way.
-fn end(passage: &Passage, joint: Hold, limit: f64, step: f64) -> (f64, Option<usize>) {
-    let count = (limit.abs() / step).ceil() as usize;
-    let state = |k: usize| if k == count { limit } else { limit.signum() * step * k as f64 };
-    let hit = |state: f64| passage.hit(joint.way_to(state));
-    let Some((first, mut by)) = (1..=count).find_map(|k| Some((k, hit(state(k))?))) else { return (limit, None) };
-    let (mut free, mut blocked) = (state(first - 1), state(first));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (free + blocked);
-        match hit(middle) {
-            None => free = middle,
-            Some(other) => (blocked, by) = (middle, other),
-        }
-    }
-    (free, Some(by))
 }
 
 /// Whether a group is another one or is joined to it, over however many.
@@ -110,12 +96,8 @@ impl Hold {
     /// What takes its body from rest to a state.
     fn way_to(self, state: f64) -> DAffine3 {
         match self {
-            Self::Hinge { point, axis, .. } => {
-                DAffine3::from_translation(point)
-                    * DAffine3::from_quat(DQuat::from_axis_angle(axis, state))
-                    * DAffine3::from_translation(-point)
-            }
-            Self::Slide { axis, .. } => DAffine3::from_translation(axis * state),
+            Self::Hinge { point, axis, .. } => BodyStates::Hinge { point, axis, angles_rad: Vec::new() }.map_to(state),
+            Self::Slide { axis, .. } => BodyStates::Slide { axis, distances_m: Vec::new() }.map_to(state),
             Self::Fixed | Self::Free => DAffine3::IDENTITY,
         }
     }

@@ -113,6 +113,13 @@ impl BodyStates {
         }
     }
 
+    /// The map of the world that takes what has this joint from rest to a state, radians of a hinge or metres of a slide; of what has no
+    /// such joint, to the first of its own states.
+    pub fn map_to(&self, state: f64) -> DAffine3 {
+        let states = self.with_values(vec![state]).unwrap_or_else(|| self.clone());
+        BodyMotion { times_s: vec![0.0], states }.world_from_rest(0.0)
+    }
+
     /// The word for the joint.
     pub fn joint(&self) -> &'static str {
         match self {

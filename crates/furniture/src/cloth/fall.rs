@@ -29,7 +29,7 @@ const CONTACT: f32 = 0.6;
 /// A distance between two points that stays.
 struct Tie {
     ends: [u32; 2],
-    /// Its square.
+    /// The square of the distance, m².
     squared: f32,
     /// Share of the error that a round corrects.
     strength: f32,

@@ -2,7 +2,7 @@
 
 use super::bodies::{bodies_of, triangles};
 use super::contact::Contacts;
-use super::sweep::{Mover, to_state};
+use super::sweep::Mover;
 use crate::{Home, HomeJoint};
 use enfilade_furniture::meet::Body;
 use enfilade_furniture::object_of;
@@ -96,7 +96,7 @@ pub fn as_made(home: &Home) -> Vec<Option<DAffine3>> {
     let mut maps = vec![None; home.scene.parts.len()];
     for body in &home.scene.bodies {
         if let Some(&state) = made.get(body.name.as_str()).filter(|state| **state != 0.0) {
-            let map = to_state(&body.motion.states, state);
+            let map = body.motion.states.map_to(state);
             body.parts.iter().for_each(|&part| maps[part as usize] = Some(map));
         }
     }

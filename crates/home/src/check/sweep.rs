@@ -2,8 +2,8 @@
 
 use super::contact::runs_into;
 use enfilade_furniture::meet::{Body, Triangle, overlap};
-use enfilade_math::{Bounds3, DAffine3, Vec3};
-use enfilade_scene::{BodyMotion, BodyStates};
+use enfilade_math::{Bounds3, Vec3, free_way};
+use enfilade_scene::BodyStates;
 
 /// Distance that the farthest point goes from one state that is tried to the next, metres: boards and leaves are about as thick.
 const STEP: f64 = 0.02;
@@ -27,12 +27,6 @@ pub struct Reach {
     pub stopped_by: Option<String>,
 }
 
-/// The map of the world that takes what has this joint from rest to a state, radians or metres.
-pub fn to_state(states: &BodyStates, state: f64) -> DAffine3 {
-    let states = states.with_values(vec![state]).unwrap_or_else(|| states.clone());
-    BodyMotion { times_s: vec![0.0], states }.world_from_rest(0.0)
-}
-
 impl Mover {
     /// What moves: the triangles of its parts at rest.
     pub fn new(name: &str, parts: Vec<Vec<Triangle>>, states: &BodyStates) -> Self {
@@ -46,7 +40,7 @@ impl Mover {
 
     /// It in a state.
     pub fn at(&self, state: f64) -> Body {
-        let map = to_state(&self.states, state);
+        let map = self.states.map_to(state);
         let mut body = Body::new(&self.name);
         for part in &self.parts {
             body.push(part.iter().map(|triangle| triangle.map(|p| map.transform_point3(p.as_dvec3()).as_vec3())).collect());
@@ -64,27 +58,9 @@ impl Mover {
 
     /// How far it can go from rest towards `limit`, with these bodies around it.
     pub fn reach(&self, limit: f64, others: &[&Body]) -> Reach {
-        let step = self.step();
-        let count = (limit.abs() / step).ceil().max(1.0) as usize;
-        let state = |k: usize| if k == count { limit } else { limit.signum() * step * k as f64 };
         let near = self.near(limit, others);
-        let mut free = 0.0;
-        for k in 1..=count {
-            let Some(hit) = self.hit(state(k), &near) else {
-                free = state(k);
-                continue;
-            };
-            let (mut blocked, mut stopped_by) = (state(k), hit.to_string());
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (free + blocked);
-                match self.hit(middle, &near) {
-                    None => free = middle,
-                    Some(hit) => (blocked, stopped_by) = (middle, hit.to_string()),
-                }
-            }
-            return Reach { state: free, stopped_by: Some(stopped_by) };
-        }
-        Reach { state: free, stopped_by: None }
+        let (state, stopped_by) = free_way(limit, self.step(), HALVINGS, |state| self.hit(state, &near).map(str::to_string));
+        Reach { state, stopped_by }
     }
 
     /// Name of a body that it runs into in a state.

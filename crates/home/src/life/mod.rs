@@ -167,9 +167,10 @@ impl Life {
         // What is put back may close a way with what is not.
         loop {
             let back = ways::closed_by(&stage, stage.moved().cloned().collect());
-            if back.iter().map(|object| stage.put_back(object)).filter(|is_back| *is_back).count() == 0 {
+            if back.is_empty() {
                 break;
             }
+            back.iter().for_each(|object| stage.put_back(object));
         }
         ajar::leave_ajar(&mut stage, &mut self.floors, &self.rng, &self.opened, self.lived_in);
         // Cloth falls on what lies there already.

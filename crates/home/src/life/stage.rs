@@ -235,14 +235,12 @@ impl<'a> Stage<'a> {
         self.nudged.iter().filter_map(|(objects, _)| objects.first())
     }
 
-    /// Moves an object back, with what was moved with it; true if it had been moved.
-    pub fn put_back(&mut self, object: &str) -> bool {
-        let Some(at) = self.nudged.iter().position(|(objects, _)| objects.first().is_some_and(|first| first == object)) else {
-            return false;
-        };
-        let (objects, pose) = self.nudged.remove(at);
-        self.shift(&objects, pose.inverse());
-        true
+    /// Moves an object that was moved back, with what was moved with it.
+    pub fn put_back(&mut self, object: &str) {
+        if let Some(at) = self.nudged.iter().position(|(objects, _)| objects.first().is_some_and(|first| first == object)) {
+            let (objects, pose) = self.nudged.remove(at);
+            self.shift(&objects, pose.inverse());
+        }
     }
 
     /// The objects among those that `may` fall that nothing carries.

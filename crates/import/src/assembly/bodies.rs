@@ -56,15 +56,10 @@ impl Assembly<'_> {
         now.lights > before.lights || now.cameras > before.cameras
     }
 
-    /// A body that moves by `poses` in a frame of the file: the identity is rest. `None`, with a warning, if the frame is distorted or
-    /// mirrored, so that the motion is not rigid.
-    pub(crate) fn push_body(&mut self, name: &str, parent: Option<BodyId>, file_from_frame: DAffine3, poses: TimedPoses) -> Option<BodyId> {
-        let body = self.try_body(name, parent, file_from_frame, poses);
-        self.told_of(name, body)
-    }
-
-    /// A body as [`Assembly::push_body`] adds it, without a warning.
-    pub(crate) fn try_body(
+    /// A body that moves by `poses` in a frame of the file: the identity is rest. `None` if the frame is distorted or mirrored, so that the
+    /// motion is not rigid.
+    #[must_use]
+    pub(crate) fn push_body(
         &mut self,
         name: &str,
         parent: Option<BodyId>,
@@ -72,31 +67,12 @@ impl Assembly<'_> {
         (times_s, poses): TimedPoses,
     ) -> Option<BodyId> {
         let states = BodyStates::Free { position: DVec3::ZERO, rotation: DQuat::IDENTITY, poses };
-        self.try_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
+        self.push_jointed(name, parent, file_from_frame, BodyMotion { times_s, states }, None)
     }
 
     /// A body whose motion is stated in a frame of the file, as [`Assembly::push_body`] adds it, with the least and greatest of its states.
+    #[must_use]
     pub(crate) fn push_jointed(
-        &mut self,
-        name: &str,
-        parent: Option<BodyId>,
-        file_from_frame: DAffine3,
-        motion: BodyMotion,
-        limits: Option<[f64; 2]>,
-    ) -> Option<BodyId> {
-        let body = self.try_jointed(name, parent, file_from_frame, motion, limits);
-        self.told_of(name, body)
-    }
-
-    /// Warns of a body that could not be added.
-    fn told_of(&mut self, name: &str, body: Option<BodyId>) -> Option<BodyId> {
-        if body.is_none() {
-            self.warn(format!("node {name:?}"), STRETCHED);
-        }
-        body
-    }
-
-    fn try_jointed(
         &mut self,
         name: &str,
         parent: Option<BodyId>,
@@ -109,6 +85,12 @@ impl Assembly<'_> {
         let body = body.carried(&(self.world_from_file * file_from_frame))?;
         self.scene.bodies.push(body);
         Some(self.scene.bodies.len() as BodyId - 1)
+    }
+
+    /// Warns of a node that could not be added as a body; gives none.
+    pub(crate) fn no_body(&mut self, name: &str) -> Option<BodyId> {
+        self.warn(format!("node {name:?}"), STRETCHED);
+        None
     }
 
     /// Makes a part deform in its own mesh's space, borne by a body if there is one. False, with a warning, if the mesh that the part has

@@ -76,7 +76,9 @@ fn carrier(node: &Node, animations: &Animations, above: Carrier, a: &mut Assembl
     match animations.of(node) {
         Motion::Other => Carrier { stretches: true, ..above },
         Motion::Rigid(file_from_frame, states) if !above.stretches => {
-            Carrier { body: a.push_body(&name(node), above.body, file_from_frame, states).or(above.body), ..above }
+            let name = name(node);
+            let body = a.push_body(&name, above.body, file_from_frame, states).or_else(|| a.no_body(&name));
+            Carrier { body: body.or(above.body), ..above }
         }
         Motion::Rigid(..) | Motion::Still => above,
     }

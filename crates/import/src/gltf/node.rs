@@ -81,7 +81,7 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         let object = objects.of(document, node, index, parent, assembly);
         let label = label::of(node, index, object, label, assembly);
         let body = moving(document, &animations, index, file_from_parent, assembly)
-            .and_then(|(name, frame, states)| assembly.push_body(&name, body, frame, states))
+            .and_then(|(name, frame, states)| assembly.push_body(&name, body, frame, states).or_else(|| assembly.no_body(&name)))
             .or(body);
         let before = assembly.contents();
         placer.node((node, index, body), file_from_node, (object, parent), label, assembly)?;

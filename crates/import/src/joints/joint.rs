@@ -97,7 +97,7 @@ impl Joint {
     pub(crate) fn push(&mut self, body: &str, parent: Option<BodyId>, a: &mut Assembly) {
         let states = self.states(&[]);
         let motion = BodyMotion { times_s: vec![0.0], states: states.unwrap_or_else(|_| BodyMotion::rest().states) };
-        self.body = a.push_jointed(body, parent, self.file_from_frame, motion, self.limits);
+        self.body = a.push_jointed(body, parent, self.file_from_frame, motion, self.limits).or_else(|| a.no_body(body));
     }
 
     /// States by the values of each step; the state of rest without any.

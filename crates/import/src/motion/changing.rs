@@ -56,7 +56,7 @@ impl Changing<'_> {
         if motion.is_rest() {
             return Moved { body: None, problem: distorted };
         }
-        let body = a.try_body(self.name, bearer, file_from_parent * motion.parent_from_frame, motion.states);
+        let body = a.push_body(self.name, bearer, file_from_parent * motion.parent_from_frame, motion.states);
         Moved { body, problem: if body.is_none() { Some(STRETCHED.into()) } else { distorted } }
     }
 }

@@ -44,7 +44,7 @@ impl Replay {
                     self.apply(Step { revision, time, ..step });
                 }
             }
-            edit => self.apply(Step { edit, revision, begun: revision, time, who, before: Vec::new(), first_new: 0 }),
+            edit => self.apply(Step::new(edit, revision, time, who)),
         }
         Ok(())
     }

@@ -59,6 +59,11 @@ pub struct Steps {
 }
 
 impl Step {
+    /// An edit that is done for the first time, before it is applied.
+    pub fn new(edit: Edit, revision: u64, time: String, who: Option<String>) -> Self {
+        Self { edit, revision, begun: revision, time, who, before: Vec::new(), first_new: 0 }
+    }
+
     fn is_split(&self) -> bool {
         matches!(self.edit, Edit::Split { .. })
     }
