@@ -1,13 +1,13 @@
 //! Measures the error with and without denoising, for several ways of guiding the filter.
 //!
-//! `denoise [SCENE | home]… [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per pixel, and
-//! twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two
+//! `denoise [SCENE | home]… [--samples A,B] [--reference N] [--size WxH]` renders each scene's first camera with 16 and 64 samples per
+//! pixel, or others, and twice with N (256) as the reference. Error is the mean of (x − a)(x − b) / (reference² + 0.01), where a and b are the two
 //! references, whose noise so drops out; the image is scaled to a mean of 0.5, and the worst 0.1 % are left out. The denoiser is the
 //! one in the binary.
 
 use anyhow::{Context, Result};
-use enfilade_denoise::{DenoiseError, Denoiser, Noisy, denoise};
-use enfilade_frame::{Frame, Layer};
+use enfilade_denoise::{DenoiseError, Denoiser, GUIDES, Noisy, denoise};
+use enfilade_frame::{Frame, Layer, Values, f16};
 use enfilade_home::{HomeConfig, home};
 use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
@@ -16,10 +16,14 @@ use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
 
 /// Runs the instrument.
 pub fn run() -> Result<()> {
-    let (mut reference, mut size, mut scenes) = (256, [384, 288], Vec::new());
+    let (mut reference, mut size, mut counts, mut scenes) = (256, [384, 288], vec![16, 64], Vec::new());
     let mut arguments = crate::arguments::arguments();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
+            "--samples" => {
+                let text = arguments.next().context("--samples needs numbers, such as 8,16")?;
+                counts = text.split(',').map(str::parse).collect::<Result<_, _>>()?;
+            }
             "--reference" => reference = arguments.next().context("--reference needs a number")?.parse()?,
             "--size" => {
                 let text = arguments.next().context("--size needs WxH")?;
@@ -38,12 +42,12 @@ pub fn run() -> Result<()> {
         let scene =
             if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
         println!("\n{name}");
-        measure(&scene, size, reference, &denoiser)?;
+        measure(&scene, size, (&counts, reference), &denoiser)?;
     }
     Ok(())
 }
 
-fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &Denoiser) -> Result<()> {
+fn measure(scene: &Scene, [width, height]: [u32; 2], (counts, reference): (&[u32], u32), denoiser: &Denoiser) -> Result<()> {
     let camera = scene.cameras.first().context("the scene has no camera")?;
     let taken_with = Camera::from(Intrinsics::from_fov_x(width, height, camera.fov_x_rad));
     let view = CameraView::still(&taken_with, &camera.pose(0));
@@ -57,7 +61,7 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
     println!("  {:<62} {:>8} {:>8} {:>8} {:>7}", "", "samples", "error", "mean", "core-s");
     let mean = |color: &[f32]| color.iter().map(|&v| f64::from(v)).sum::<f64>() / color.len() as f64;
     let true_mean = 0.5 * (mean(&references[0]) + mean(&references[1]));
-    for samples in [16, 64] {
+    for &samples in counts {
         let frame = render(samples, 1)?;
         let row = |what: &str, color: &[f32], seconds: f64| {
             let (error, bias) = (relative_error(color, &references), 100.0 * (mean(color) / true_mean - 1.0));
@@ -76,7 +80,7 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], reference: u32, denoiser: &
 /// A way to denoise a frame's colour.
 type Way = (&'static str, fn(&Frame, &Denoiser) -> Result<Vec<f32>, DenoiseError>);
 
-const WAYS: [Way; 6] = [
+const WAYS: [Way; 8] = [
     ("color at once, no guides", |frame, denoiser| {
         let (color, one, zero) = (picture(frame, Layer::Color), white(frame), vec![0.0; 3 * frame.pixels()]);
         Ok(filter(frame, denoiser, &color, &one, &zero))
@@ -89,14 +93,32 @@ const WAYS: [Way; 6] = [
         Ok(parts(frame, denoiser, &picture(frame, Layer::DiffuseReflectance)))
     }),
     ("light and residual apart, normals", |frame, denoiser| Ok(parts(frame, denoiser, &white(frame)))),
-    ("the same, normals filtered over the pixel: what is written", |frame, denoiser| {
+    ("the same, normals of pixel centres, filtered", |frame, denoiser| {
+        let mut unguided = Frame::new(frame.width, frame.height);
+        frame.iter().filter(|(layer, _)| !GUIDES.contains(layer)).for_each(|(layer, values)| unguided.insert(layer, values.clone()));
+        Ok(picture(&denoise(&unguided, |noisy| denoiser.filter(noisy))?, Layer::Color))
+    }),
+    ("the same, normals of the samples", |frame, denoiser| {
+        let mut guided = frame.clone();
+        guided.insert(Layer::NormalBeyondWorld, values(frame, Layer::NormalFilteredWorld));
+        guided.insert(Layer::ReflectanceBeyond, Values::F16(vec![f16::ONE; 3 * frame.pixels()]));
+        Ok(picture(&denoise(&guided, |noisy| denoiser.filter(noisy))?, Layer::Color))
+    }),
+    ("the same, mirrors and glass followed: what is written", |frame, denoiser| {
         Ok(picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::Color))
     }),
-    ("the same, reflectance as a guide as well", |frame, denoiser| {
-        let albedo = picture(frame, Layer::DiffuseReflectance);
-        Ok(picture(&denoise(frame, |noisy| denoiser.filter(&Noisy { albedo: &albedo, ..*noisy }))?, Layer::Color))
+    ("color at once, reflectance and normals of the samples", |frame, denoiser| Ok(at_once(frame, denoiser))),
+    ("the mean of these two", |frame, denoiser| {
+        let written = picture(&denoise(frame, |noisy| denoiser.filter(noisy))?, Layer::Color);
+        Ok(written.iter().zip(at_once(frame, denoiser)).map(|(a, b)| 0.5 * (a + b)).collect())
     }),
 ];
+
+/// Color denoised at once, guided by reflectance and by the normals of the samples.
+fn at_once(frame: &Frame, denoiser: &Denoiser) -> Vec<f32> {
+    let [color, albedo, normal] = [Layer::Color, Layer::DiffuseReflectance, Layer::NormalFilteredWorld].map(|layer| picture(frame, layer));
+    filter(frame, denoiser, &color, &albedo, &normal)
+}
 
 /// Light and residual denoised apart, guided by `albedo` and normals as they are, and put together.
 fn parts(frame: &Frame, denoiser: &Denoiser, albedo: &[f32]) -> Vec<f32> {
@@ -115,9 +137,13 @@ fn white(frame: &Frame) -> Vec<f32> {
     vec![1.0; 3 * frame.pixels()]
 }
 
+fn values(frame: &Frame, layer: Layer) -> Values {
+    frame.get(layer).expect("a rendered and denoised frame has the layer").clone()
+}
+
 /// A layer in single precision, 0 where it is not a number.
 fn picture(frame: &Frame, layer: Layer) -> Vec<f32> {
-    let values = frame.get(layer).expect("a rendered and denoised frame has the layer");
+    let values = values(frame, layer);
     (0..values.len()).map(|i| values.get(i) as f32).map(|v| if v.is_nan() { 0.0 } else { v }).collect()
 }
 

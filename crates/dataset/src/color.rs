@@ -3,12 +3,13 @@
 //! Rendering writes `*_rendered`. From these come `color`, `diffuse_illumination` and `residual`: denoised, or the same files under a
 //! second name (a hard link; a copy where the file system has none). The record of a frame states which, and lists every content once: if
 //! colour is as it was rendered, it lists the plain names alone. While colour is being made it lists only the rendered layers, so a change
-//! that is killed at any point leaves a frame without colour, and the next run makes it.
+//! that is killed at any point leaves a frame without colour, and the next run makes it. The layers that guide denoising stay and go with
+//! what was rendered: nothing else needs them.
 
 use crate::atomic::{link, remove_if_there};
 use crate::whole_frames::Problem;
 use crate::{ColorKind, Dataset, DatasetError, Denoised, FileRecord, FrameRecord, write_json};
-use enfilade_frame::{DENOISED, Frame, Layer};
+use enfilade_frame::{DENOISED, Frame, LAYERS, Layer, Pass};
 use std::path::{Path, PathBuf};
 
 impl Dataset {
@@ -46,7 +47,7 @@ impl Dataset {
     }
 
     /// Replaces `diffuse_illumination`, `residual` and `color` of a frame by the denoised `layers`. The rendered layers stay under names
-    /// that end with `_rendered` if `keep_rendered` is set, and are removed otherwise.
+    /// that end with `_rendered` if `keep_rendered` is set; otherwise they are removed, with the layers that guided denoising.
     ///
     /// # Errors
     /// When the frame has no record, or what was rendered is gone, or a file cannot be written. Then the frame has the colour that it had,
@@ -65,7 +66,7 @@ impl Dataset {
         self.put_in_place(scene, camera, frame, layers).inspect_err(|_| self.remove_aside(scene, camera, frame, layers))?;
 
         // Layers are removed only after the record states that denoising is done.
-        let is_dropped = |path: &String, _: &mut FileRecord| !keep_rendered && plain_name(path).is_some();
+        let is_dropped = |path: &String, _: &mut FileRecord| !keep_rendered && goes_with_rendered(path);
         let dropped = record.files.extract_if(.., is_dropped).collect();
         record.files.extend(written);
         record.color = ColorKind::Denoised;
@@ -99,7 +100,7 @@ impl Dataset {
         let mut record = self.recorded(scene, camera, frame)?;
         let Some(denoised) = &mut record.denoised else { return Ok(()) };
         if denoised.dropped.is_empty() {
-            denoised.dropped = record.files.extract_if(.., |path, _| plain_name(path).is_some()).collect();
+            denoised.dropped = record.files.extract_if(.., |path, _| goes_with_rendered(path)).collect();
             write_json(&self.layout().frame_record(scene, camera, frame), &record)?;
         }
         self.remove_rendered([scene, camera], frame)
@@ -175,13 +176,26 @@ impl Dataset {
 
     fn remove_rendered(&self, [scene, camera]: [&str; 2], frame: u32) -> Result<(), DatasetError> {
         let remove = |layer: Layer| remove_if_there(&self.layout().layer(scene, camera, frame, layer));
-        DENOISED.into_iter().try_for_each(|(_, kept)| remove(kept))
+        DENOISED.into_iter().map(|(_, kept)| kept).chain(guides()).try_for_each(remove)
     }
 
     fn not_kept(&self, record: &Path) -> DatasetError {
         let problem = "its color is denoised and what was rendered was not kept (keep_rendered = false); render the frame again";
         DatasetError::text(record, problem.to_string())
     }
+}
+
+/// The layers that guide denoising.
+fn guides() -> impl Iterator<Item = Layer> {
+    LAYERS.iter().filter(|spec| spec.pass == Pass::Guides).map(|spec| spec.layer)
+}
+
+/// True of the path of a layer that is kept only where what was rendered is.
+fn goes_with_rendered(path: &str) -> bool {
+    let is_of = |layer: Layer| {
+        path.strip_suffix(".hdf5").and_then(|path| path.strip_suffix(layer.spec().name)).is_some_and(|start| start.ends_with('.'))
+    };
+    plain_name(path).is_some() || guides().any(is_of)
 }
 
 /// The plain path of a layer of which `path` is the rendered version; `None` for every other path.

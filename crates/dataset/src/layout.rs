@@ -543,7 +543,7 @@ pub(crate) fn layer_file_name(frame: u32, layer: Layer) -> String {
 
 fn pass_name(pass: Pass) -> &'static str {
     match pass {
-        Pass::Final | Pass::Rendered | Pass::LightParts => "final",
+        Pass::Final | Pass::Rendered | Pass::Guides | Pass::LightParts => "final",
         Pass::Geometry | Pass::Label | Pass::Extra => "geometry",
     }
 }

@@ -1,15 +1,24 @@
 //! From rendered layers to denoised ones.
 //!
-//! The guides of each part were chosen by measurement, see `docs/benchmarks/denoise.md`. Diffuse light and residual contain no texture of
-//! the first surface's reflectance, so a reflectance among their guides would only leave traces in them: there it is white, and the exact
-//! reflectance is multiplied in afterwards. Normals are point samples, but colours are filtered over the pixel; at edges the two would
-//! disagree, so normals get the same filter.
+//! The guides of each part were chosen by measurement, see `docs/benchmarks/denoise.md`. Diffuse light contains no texture of the first
+//! surface's reflectance, so a reflectance among its guides would only leave traces in it: there it is white, and the exact reflectance is
+//! multiplied in afterwards. The residual shows what is mirrored and what is behind glass, so its guides are the normals and the reflectance
+//! of that. All guides are means over the samples of the colours, with which they agree at edges and where lens or motion blur.
 
 use crate::DenoiseError;
 use enfilade_frame::{Frame, Layer, Values, compose, f16};
 
-/// The layers that denoising reads.
+/// The layers that every frame must have to be denoised.
 pub const INPUTS: [Layer; 4] = [Layer::DiffuseIllumination, Layer::Residual, Layer::DiffuseReflectance, Layer::NormalBumpWorld];
+
+/// The layers that guide denoising. Frames of earlier versions are without them: there `normal_bump_world` takes their place, which is of
+/// point samples and gets the filter of the colours.
+pub const GUIDES: [Layer; 3] = [Layer::NormalFilteredWorld, Layer::NormalBeyondWorld, Layer::ReflectanceBeyond];
+
+/// The layers that denoising reads of a frame: [`INPUTS`], and of [`GUIDES`] those that it has.
+pub fn inputs(has: impl Fn(Layer) -> bool) -> Vec<Layer> {
+    INPUTS.into_iter().chain(GUIDES.into_iter().filter(|layer| has(*layer))).collect()
+}
 
 /// A tent of one pixel's radius over values that are constant within pixels: the share of each neighbour in a row or column.
 const NEIGHBOUR: f32 = 0.125;
@@ -25,7 +34,7 @@ pub struct Noisy<'a> {
     pub color: &'a [f32],
     /// Reflectance, 0 to 1, of the texture that `color` shows.
     pub albedo: &'a [f32],
-    /// Normals in the world, at most of unit length, 0 where nothing was hit.
+    /// Normals in the world, at most of unit length, 0 where nothing is hit.
     pub normal: &'a [f32],
 }
 
@@ -36,10 +45,18 @@ pub struct Noisy<'a> {
 /// When the frame lacks one of [`INPUTS`].
 pub fn denoise(frame: &Frame, mut filter: impl FnMut(&Noisy<'_>) -> Vec<f32>) -> Result<Frame, DenoiseError> {
     let [illumination, residual, reflectance, normal] = INPUTS.map(|layer| values(frame, layer));
-    let (illumination, residual, reflectance, normal) = (illumination?, residual?, reflectance?, filtered(&normal?, frame.width as usize));
+    let (illumination, residual, reflectance, normal) = (illumination?, residual?, reflectance?, normal?);
     let white = vec![1.0; normal.len()];
-    let mut denoised = |color: &[f32]| filter(&Noisy { width: frame.width, height: frame.height, color, albedo: &white, normal: &normal });
-    let (illumination, residual) = (denoised(&illumination), denoised(&residual));
+    let [filtered, beyond, reflectance_beyond] = match GUIDES.map(|layer| values(frame, layer)) {
+        [Ok(filtered), Ok(beyond), Ok(reflectance_beyond)] => [filtered, beyond, reflectance_beyond],
+        _ => {
+            let filtered = filtered(&normal, frame.width as usize);
+            [filtered.clone(), filtered, white.clone()]
+        }
+    };
+    let (width, height) = (frame.width, frame.height);
+    let illumination = filter(&Noisy { width, height, color: &illumination, albedo: &white, normal: &filtered });
+    let residual = filter(&Noisy { width, height, color: &residual, albedo: &reflectance_beyond, normal: &beyond });
     Ok(composed(frame, &reflectance, &illumination, &residual))
 }
 

@@ -1,7 +1,7 @@
 //! The colour layers without noise, by the network of Open Image Denoise.
 //!
-//! Diffuse light and residual are denoised apart, with the normals of the geometry pass as guides, and put together with the exact
-//! reflectance as the renderer puts them together. So texture never goes through the denoiser, and the identity is exact to the last bit.
+//! Diffuse light and residual are denoised apart, guided by normals and by what is seen in mirrors and through glass, and put together with
+//! the exact reflectance as the renderer puts them together. So texture never goes through the denoiser, and the identity is exact to the last bit.
 //! [`denoise`] is a pure function of a frame and a filter; a [`Denoiser`] is the filter: the network in the binary, run by our own kernels
 //! with the same bytes on every processor.
 //!
@@ -30,5 +30,5 @@ mod network;
 
 pub use denoiser::Denoiser;
 pub use error::DenoiseError;
-pub use layers::{INPUTS, Noisy, denoise};
+pub use layers::{GUIDES, INPUTS, Noisy, denoise, inputs};
 pub use network::Instructions;

@@ -26,6 +26,9 @@ pub enum Layer {
     ColorRendered,
     DiffuseIlluminationRendered,
     ResidualRendered,
+    NormalFilteredWorld,
+    NormalBeyondWorld,
+    ReflectanceBeyond,
     ColorStandardError,
     DiffuseDirect,
     DiffuseIndirect,
@@ -46,6 +49,7 @@ pub enum Layer {
     SurfaceTraits,
     DepthBehindMeters,
     EntityBehindId,
+    DepthBeyondMeters,
     OcclusionBoundary,
     OpticalFlow,
     SceneFlow,
@@ -75,6 +79,8 @@ pub enum Pass {
     Label,
     /// Layers in the final folder as they were rendered, of frames whose `color` is denoised, where they are kept.
     Rendered,
+    /// Layers in the final folder that guide denoising; they stay where what was rendered is kept.
+    Guides,
     /// Layers in the final folder, rendered with it only where that is asked for: the light of `color` by its way or its source.
     #[serde(rename = "split")]
     LightParts,
@@ -85,7 +91,7 @@ pub enum Pass {
 impl Pass {
     /// True for layers that a frame has only where they were asked for, and then all of them.
     pub const fn is_optional(self) -> bool {
-        matches!(self, Self::Rendered | Self::LightParts | Self::Extra)
+        matches!(self, Self::Rendered | Self::Guides | Self::LightParts | Self::Extra)
     }
 }
 
@@ -150,7 +156,7 @@ macro_rules! layers {
 }
 
 /// The table of layers; `LAYERS[layer as usize].layer == layer`.
-pub const LAYERS: [LayerSpec; 43] = layers![
+pub const LAYERS: [LayerSpec; 47] = layers![
     Color "color" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "Radiance, denoised or as rendered, which the record of the frame says; equals diffuse_reflectance * diffuse_illumination + residual to the last bit, evaluated in float32 and rounded to float16.";
     DiffuseIllumination "diffuse_illumination" Final 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
@@ -176,6 +182,12 @@ pub const LAYERS: [LayerSpec; 43] = layers![
         "What was rendered where diffuse_illumination is denoised.";
     ResidualRendered "residual_rendered" Rendered 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "the environment's radiance",
         "What was rendered where residual is denoised.";
+    NormalFilteredWorld "normal_filtered_world" Guides 3 F16, "", "world", "0",
+        "Mean of the unit shading normals, with normal and bump maps, that the samples of color see; shorter where they differ. Guides denoising.";
+    NormalBeyondWorld "normal_beyond_world" Guides 3 F16, "", "world", "0",
+        "The same where a surface is smooth: mean of the normals of what is seen in it as in a mirror and through it as through glass, in proportion to that light; elsewhere the surface's own. Guides the denoising of residual.";
+    ReflectanceBeyond "reflectance_beyond" Guides 3 F16, "", "linear RGB, Rec. 709", "1",
+        "Mean reflectance, on [0,1], of what is seen in mirrors and through glass; 1 where nothing is. Guides the denoising of residual.";
     ColorStandardError "color_standard_error" Final 1 F16, "W/(sr m^2)", "luminance, Rec. 709", "as elsewhere",
         "Standard error of the luminance of color as it was rendered, from the spread of the pixel's samples as if they were independent; they are stratified, so the true one is smaller on average. NaN in a frame of one sample per pixel.";
     DiffuseDirect "diffuse_direct" LightParts 3 F16, "W/(sr m^2)", "linear RGB, Rec. 709", "0",
@@ -210,6 +222,8 @@ pub const LAYERS: [LayerSpec; 43] = layers![
     DepthBehindMeters "depth_behind_meters" Extra 1 F32, "m", "", "NaN",
         "Euclidean distance to the first surface that lets no light through, straight on through all glass; depth_meters where the first surface is that.";
     EntityBehindId "entity_behind_id" Extra 1 I16, "", "", "-1", "Part number of that surface, as render_entity_id.";
+    DepthBeyondMeters "depth_beyond_meters" Extra 1 F32, "m", "", "NaN",
+        "Length of the way from the camera to the first surface that is neither a mirror nor glass, mirrored and refracted as most of the light is; depth_meters where the first surface is that.";
     OcclusionBoundary "occlusion_boundary" Extra 1 U8, "", "", "0",
         "Next to a jump in depth among the four neighbours: 1 on the near side, 2 on the far side (where nothing is hit, too); 0 elsewhere.";
     OpticalFlow "optical_flow" Extra 2 F32, "px", "image (x right, y down)", "NaN",

@@ -47,13 +47,13 @@ pub struct Sample {
 
 /// True for layers whose values may be averaged over an area.
 pub(crate) fn is_averaged(layer: Layer) -> bool {
-    matches!(layer.spec().pass, Pass::Final | Pass::Rendered | Pass::LightParts)
+    matches!(layer.spec().pass, Pass::Final | Pass::Rendered | Pass::Guides | Pass::LightParts)
         || matches!(layer, Layer::BaseColor | Layer::EmittedRadiance)
 }
 
 /// Clears the mask where the layer has no value.
 pub(crate) fn mask_out(mask: &mut [u8], layer: Layer, image: &Image) {
-    let depth = matches!(layer, Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters);
+    let depth = matches!(layer, Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters | Layer::DepthBeyondMeters);
     match &image.values {
         // Finite, and above zero for depths: the bits of positive finite numbers lie between those of zero and of infinity.
         Values::F16(v) if depth => keep(mask, v, 1, |v| (1..f16::INFINITY.to_bits()).contains(&v.to_bits())),

@@ -2,10 +2,11 @@
 //!
 //! From the second surface on [`Integrator::radiance`] follows the path.
 
+use crate::beyond::Beyond;
 use crate::bsdf::Value;
 use crate::integrator::{Direct, Integrator, bsdf_set, roulette_throughput};
 use crate::light_parts::{Arriving, Origin};
-use crate::pixel_sample::{CameraSample, FixtureLight, PixelSample};
+use crate::pixel_sample::{CameraSample, FOLLOWED, FixtureLight, PixelSample};
 use crate::texture::Cone;
 use crate::vertex::{Segment, Vertex};
 use enfilade_math::Rgb;
@@ -40,8 +41,14 @@ impl Integrator<'_, '_> {
         }
         sample.add_seen(self.origin_of_surface(&surface), sample.residual);
 
-        // Sample a light and add what the surface reflects of it: next-event estimation, weighted against the BSDF's own directions.
+        // Note what guides denoising.
         let bsdf = surface.bsdf(self.scene);
+        sample.normal = surface.ns;
+        if camera.index < FOLLOWED {
+            sample.beyond = Beyond::first(self.scene, &surface, &bsdf);
+        }
+
+        // Sample a light and add what the surface reflects of it: next-event estimation, weighted against the BSDF's own directions.
         let vertex = Vertex::new(self.guide, surface.lifted(self.scene), bsdf);
         let mut illumination = Rgb::BLACK;
         sample.reflectance = vertex.bsdf.reflectance;

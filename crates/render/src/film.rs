@@ -3,9 +3,9 @@
 
 use crate::budget::Estimate;
 use crate::light_parts::LightParts;
-use crate::pixel_sample::PixelSample;
+use crate::pixel_sample::{FOLLOWED, PixelSample};
 use enfilade_frame::{F16_LIMIT, compose, f16};
-use enfilade_math::Rgb;
+use enfilade_math::{Rgb, Vec3};
 
 /// Sums of the samples of one pixel. Samples come from the reconstruction filter's distribution, so all weigh the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,6 +22,18 @@ pub(crate) struct PixelSum {
     /// which sums of squares would lose in rounding.
     mean: f32,
     deviations: f32,
+    normal: Vec3,
+    /// Sums of what is seen in mirrors and through glass, over the samples that were followed there.
+    normal_beyond: Vec3,
+    reflectance_beyond: Rgb,
+}
+
+/// The stored guides of one pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct PixelGuides {
+    pub normal: [f16; 3],
+    pub normal_beyond: [f16; 3],
+    pub reflectance_beyond: [f16; 3],
 }
 
 /// The stored colour values of one pixel.
@@ -38,11 +50,16 @@ pub(crate) struct PixelColor {
 
 impl PixelSum {
     /// Words of [`PixelSum::to_words`].
-    pub const WORDS: usize = 16;
+    pub const WORDS: usize = 25;
 
     /// Adds a sample.
     pub fn add(&mut self, s: &PixelSample) {
         self.samples += 1;
+        self.normal += s.normal;
+        if self.samples <= FOLLOWED {
+            self.normal_beyond += s.beyond.normal;
+            self.reflectance_beyond += s.beyond.reflectance;
+        }
         self.reflectance += s.expected_reflectance.unwrap_or(s.reflectance);
         self.residual += s.residual;
         let luminance = (s.reflectance * s.illumination.unwrap_or_default() + s.residual).luminance();
@@ -76,7 +93,8 @@ impl PixelSum {
     pub fn to_words(self) -> [u32; Self::WORDS] {
         let mut words = [0; Self::WORDS];
         let colors = [self.reflectance, self.diffuse, self.illumination, self.residual].into_iter().flat_map(Rgb::to_array);
-        let floats = colors.chain([self.mean, self.deviations]).map(f32::to_bits);
+        let guides = [self.normal, self.normal_beyond].into_iter().flat_map(|v| v.to_array()).chain(self.reflectance_beyond.to_array());
+        let floats = colors.chain([self.mean, self.deviations]).chain(guides).map(f32::to_bits);
         words.iter_mut().zip([self.samples, self.illumination_samples].into_iter().chain(floats)).for_each(|(word, bits)| *word = bits);
         words
     }
@@ -85,6 +103,7 @@ impl PixelSum {
     pub fn from_words(words: &[u32; Self::WORDS]) -> Self {
         let float = |index: usize| f32::from_bits(words[index]);
         let color = |index: usize| Rgb::new(float(index), float(index + 1), float(index + 2));
+        let vector = |index: usize| Vec3::new(float(index), float(index + 1), float(index + 2));
         Self {
             samples: words[0],
             illumination_samples: words[1],
@@ -94,12 +113,26 @@ impl PixelSum {
             residual: color(11),
             mean: float(14),
             deviations: float(15),
+            normal: vector(16),
+            normal_beyond: vector(19),
+            reflectance_beyond: color(22),
         }
     }
 
     /// The stored diffuse reflectance.
     fn stored_reflectance(&self) -> [f16; 3] {
         (self.reflectance / self.samples.max(1) as f32).to_array().map(|v| f16::from_f32(v.clamp(0.0, 1.0)))
+    }
+
+    /// The pixel's guides; without samples, those of the background.
+    pub fn guides(&self) -> PixelGuides {
+        let (all, followed) = (self.samples.max(1) as f32, self.samples.min(FOLLOWED).max(1) as f32);
+        let reflectance = if self.samples == 0 { Rgb::WHITE } else { self.reflectance_beyond / followed };
+        PixelGuides {
+            normal: (self.normal / all).to_array().map(f16::from_f32),
+            normal_beyond: (self.normal_beyond / followed).to_array().map(f16::from_f32),
+            reflectance_beyond: reflectance.to_array().map(|v| f16::from_f32(v.clamp(0.0, 1.0))),
+        }
     }
 
     /// The pixel's layers. The stored values satisfy color = reflectance × illumination + residual to the last bit: the first

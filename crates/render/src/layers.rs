@@ -1,6 +1,6 @@
 //! Arranges the resolved pixels of a frame as its layers, with the sentinel values of pixels that show nothing.
 
-use crate::film::PixelColor;
+use crate::film::{PixelColor, PixelGuides};
 use crate::geometry_pass::PixelGeometry;
 use crate::light_parts::LightParts;
 use enfilade_frame::{FixtureLayers, Frame, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer, Validity, Values, f16};
@@ -9,12 +9,14 @@ use enfilade_frame::{FixtureLayers, Frame, LIGHT_BY_PATH, LIGHT_BY_SOURCE, Layer
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pixel {
     pub color: PixelColor,
+    pub guides: PixelGuides,
     pub geometry: Option<PixelGeometry>,
 }
 
 /// Writes the pixels, given row by row, as layers; where nothing was hit, the layers' sentinels.
 pub(crate) fn layers(width: u32, height: u32, pixels: &[Pixel]) -> Frame {
     let color = |f: fn(&PixelColor) -> [f16; 3]| Values::F16(pixels.iter().flat_map(|p| f(&p.color)).collect());
+    let guide = |f: fn(&PixelGuides) -> [f16; 3]| Values::F16(pixels.iter().flat_map(|p| f(&p.guides)).collect());
     let nan = [f16::NAN; 3];
     let half = |f: fn(&PixelGeometry) -> [f16; 3], void: [f16; 3]| {
         Values::F16(pixels.iter().flat_map(|p| p.geometry.as_ref().map_or(void, f)).collect())
@@ -26,6 +28,9 @@ pub(crate) fn layers(width: u32, height: u32, pixels: &[Pixel]) -> Frame {
     frame.insert(Layer::DiffuseIllumination, color(|c| c.illumination));
     frame.insert(Layer::DiffuseReflectance, color(|c| c.reflectance));
     frame.insert(Layer::Residual, color(|c| c.residual));
+    frame.insert(Layer::NormalFilteredWorld, guide(|g| g.normal));
+    frame.insert(Layer::NormalBeyondWorld, guide(|g| g.normal_beyond));
+    frame.insert(Layer::ReflectanceBeyond, guide(|g| g.reflectance_beyond));
     frame.insert(Layer::ColorStandardError, Values::F16(pixels.iter().map(|p| p.color.standard_error).collect()));
     frame.insert(Layer::DepthMeters, single(|g| g.distance_m));
     frame.insert(Layer::DepthZMeters, single(|g| g.depth_z_m));

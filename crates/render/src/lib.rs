@@ -47,6 +47,7 @@
 //!
 //! `bsdf` scatters, `light` emits; both have the same `sample`/`pdf` shape, so that one statistical test serves both.
 
+mod beyond;
 mod bsdf;
 mod budget;
 mod camera_path;

@@ -9,7 +9,7 @@ use enfilade_math::hash_u64;
 
 const SIGNATURE: [u8; 8] = *b"enfilpar";
 /// Version of this form, and of what the sums mean.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// Words before the key.
 const HEADER: usize = 7;
 

@@ -3,8 +3,9 @@
 //! At the first surface the estimate is kept in three parts: the diffuse reflectance A, the *demodulated* diffuse light E
 //! (what the diffuse lobe would send for a reflectance of one) and the rest R, so that a sample's radiance is A·E + R.
 
+use crate::beyond::Beyond;
 use crate::light_parts::LightParts;
-use enfilade_math::{Ray, Rgb, Sampler};
+use enfilade_math::{Ray, Rgb, Sampler, Vec3};
 
 /// A camera ray to follow.
 pub(crate) struct CameraSample {
@@ -16,7 +17,7 @@ pub(crate) struct CameraSample {
 }
 
 /// One sample of a pixel.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct PixelSample {
     /// Diffuse reflectance A of the first surface.
     pub reflectance: Rgb,
@@ -30,6 +31,29 @@ pub(crate) struct PixelSample {
     pub parts: LightParts,
     /// A·E + R by fixture, if requested; a fixture may occur several times.
     pub fixtures: Vec<FixtureLight>,
+    /// Shading normal of the first surface, with bump; 0 for the background.
+    pub normal: Vec3,
+    /// What is mirrored in that surface or seen through it; of the first [`FOLLOWED`] samples of a pixel.
+    pub beyond: Beyond,
+}
+
+/// Samples of a pixel that are followed into mirrors and glass.
+pub(crate) const FOLLOWED: u32 = 16;
+
+impl Default for PixelSample {
+    /// Without light; the background.
+    fn default() -> Self {
+        Self {
+            reflectance: Rgb::BLACK,
+            expected_reflectance: None,
+            illumination: None,
+            residual: Rgb::BLACK,
+            parts: LightParts::default(),
+            fixtures: Vec::new(),
+            normal: Vec3::ZERO,
+            beyond: Beyond::NOTHING,
+        }
+    }
 }
 
 /// Light that a fixture adds to a sample.

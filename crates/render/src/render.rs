@@ -357,6 +357,7 @@ impl<'a, 's> FrameRender<'a, 's> {
         let pixels: Vec<Vec<Pixel>> = map_up_to(self.film.len(), |tile| {
             let pixel = |(sum, (x, y)): (&PixelSum, _)| Pixel {
                 color: sum.resolve(),
+                guides: sum.guides(),
                 geometry: pixel_geometry(self.rows.at(f64::from(y) + 0.5), view, x, y),
             };
             self.film[tile].sums.iter().zip(tiles.pixels(tile as u32)).map(pixel).collect()

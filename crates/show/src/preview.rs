@@ -52,7 +52,7 @@ const fn spec(pass: Pass, name: &'static str, subject: Subject) -> PreviewSpec {
 }
 
 /// Every preview.
-pub const PREVIEWS: [PreviewSpec; 51] = [
+pub const PREVIEWS: [PreviewSpec; 55] = [
     spec(Pass::Final, "tonemap.jpg", Subject::ToneMapped),
     spec(Pass::Final, "display.jpg", Subject::Displayed),
     spec(Pass::Final, "color.jpg", Subject::Clipped),
@@ -81,6 +81,9 @@ pub const PREVIEWS: [PreviewSpec; 51] = [
     spec(Pass::Rendered, "color_rendered.jpg", Subject::Layer(Layer::ColorRendered)),
     spec(Pass::Rendered, "diffuse_illumination_rendered.jpg", Subject::Layer(Layer::DiffuseIlluminationRendered)),
     spec(Pass::Rendered, "residual_rendered.jpg", Subject::Layer(Layer::ResidualRendered)),
+    spec(Pass::Guides, "normal_filtered_world.jpg", Subject::Layer(Layer::NormalFilteredWorld)),
+    spec(Pass::Guides, "normal_beyond_world.jpg", Subject::Layer(Layer::NormalBeyondWorld)),
+    spec(Pass::Guides, "reflectance_beyond.jpg", Subject::Layer(Layer::ReflectanceBeyond)),
     spec(Pass::LightParts, "diffuse_direct.jpg", Subject::Layer(Layer::DiffuseDirect)),
     spec(Pass::LightParts, "diffuse_indirect.jpg", Subject::Layer(Layer::DiffuseIndirect)),
     spec(Pass::LightParts, "specular.jpg", Subject::Layer(Layer::Specular)),
@@ -100,6 +103,7 @@ pub const PREVIEWS: [PreviewSpec; 51] = [
     spec(Pass::Extra, "surface_traits.png", Subject::Layer(Layer::SurfaceTraits)),
     spec(Pass::Extra, "depth_behind_meters.png", Subject::Layer(Layer::DepthBehindMeters)),
     spec(Pass::Extra, "entity_behind_id.png", Subject::Layer(Layer::EntityBehindId)),
+    spec(Pass::Extra, "depth_beyond_meters.png", Subject::Layer(Layer::DepthBeyondMeters)),
     spec(Pass::Extra, "occlusion_boundary.png", Subject::Layer(Layer::OcclusionBoundary)),
     spec(Pass::Extra, "optical_flow.png", Subject::Layer(Layer::OpticalFlow)),
     spec(Pass::Extra, "scene_flow.png", Subject::Layer(Layer::SceneFlow)),
@@ -180,7 +184,9 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
     let own = || Stretch::over(stretch::shown_values(layer, values, 1));
     let range = || range.cloned().unwrap_or_else(own);
     let picture = match layer {
-        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters => return stretch::lengths(values, frame, &range()),
+        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters | Layer::DepthBeyondMeters => {
+            return stretch::lengths(values, frame, &range());
+        }
         Layer::Position | Layer::SceneFlow => return stretch::vectors(values, frame, &range()),
         Layer::OpticalFlow => return stretch::flow(values, frame, &range()),
         Layer::Color
@@ -200,10 +206,14 @@ fn layer_preview(layer: Layer, values: &Values, frame: &Frame, tone: ToneMap, ra
         | Layer::LightPoints
         | Layer::EmittedRadiance => shown(frame, values, |v| tone.apply(v)),
         Layer::ColorStandardError => shown(frame, values, |v| tone.apply(v)),
-        Layer::DiffuseReflectance | Layer::BaseColor => shown(frame, values, encode),
-        Layer::NormalWorld | Layer::NormalCam | Layer::NormalBumpWorld | Layer::NormalBumpCam | Layer::NormalGeometricWorld => {
-            shown(frame, values, |v| 0.5 * (v + 1.0))
-        }
+        Layer::DiffuseReflectance | Layer::BaseColor | Layer::ReflectanceBeyond => shown(frame, values, encode),
+        Layer::NormalWorld
+        | Layer::NormalCam
+        | Layer::NormalBumpWorld
+        | Layer::NormalBumpCam
+        | Layer::NormalGeometricWorld
+        | Layer::NormalFilteredWorld
+        | Layer::NormalBeyondWorld => shown(frame, values, |v| 0.5 * (v + 1.0)),
         Layer::Metallic | Layer::Roughness | Layer::TransmissionWeight => shown(frame, values, |v| v),
         Layer::TexCoord => shown(frame, values, |v| v - v.floor()),
         Layer::RenderEntityId | Layer::MaterialId | Layer::EntityBehindId => ids(frame, values, id_color),

@@ -25,7 +25,7 @@ pub struct Stretch(Vec<Option<[f64; 2]>>);
 
 const fn kind(layer: Layer) -> Option<Kind> {
     match layer {
-        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters => Some(Kind::Length),
+        Layer::DepthMeters | Layer::DepthZMeters | Layer::DepthBehindMeters | Layer::DepthBeyondMeters => Some(Kind::Length),
         Layer::Position | Layer::SceneFlow => Some(Kind::Vector),
         Layer::OpticalFlow => Some(Kind::Flow),
         _ => None,

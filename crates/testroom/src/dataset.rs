@@ -181,7 +181,7 @@ pub fn dataset(root: &std::path::Path) -> Dataset {
             .write_frame(
                 "room",
                 "cam_00",
-                &part_of(&[Pass::Final, Pass::Geometry, Pass::LightParts, Pass::Extra]),
+                &part_of(&[Pass::Final, Pass::Geometry, Pass::Guides, Pass::LightParts, Pass::Extra]),
                 &info,
                 FrameTime::default(),
             )

@@ -78,6 +78,10 @@ pub fn frame(pose: &Pose) -> Frame {
         [Layer::DiffuseIllumination, Layer::DiffuseIlluminationRendered].into_iter().for_each(|l| push(l, &[f64::from(s); 3]));
         [Layer::Residual, Layer::ResidualRendered].into_iter().for_each(|l| push(l, &[f64::from(r); 3]));
         [Layer::Color, Layer::ColorRendered].into_iter().for_each(|l| push(l, &[f64::from(a * s + r); 3]));
+        [Layer::NormalFilteredWorld, Layer::NormalBeyondWorld]
+            .into_iter()
+            .for_each(|l| push(l, &normal.to_array().map(|v| if v.is_nan() { 0.0 } else { v })));
+        push(Layer::ReflectanceBeyond, &[1.0; 3]);
         push(Layer::ColorStandardError, &[f64::from(0.125 * (a * s + r))]);
         // The floor is lit from the void, the wall by a lamp.
         let diffuse = f64::from(a * s);
@@ -101,6 +105,7 @@ pub fn frame(pose: &Pose) -> Frame {
         push(Layer::SurfaceTraits, &[f64::from(u8::from(id == 3) * traits::MIRROR)]);
         push(Layer::DepthBehindMeters, &[distance]);
         push(Layer::EntityBehindId, &[f64::from(id)]);
+        push(Layer::DepthBeyondMeters, &[distance]);
         push(Layer::OcclusionBoundary, &[0.0]);
         // The camera rests.
         push(Layer::OpticalFlow, &[if seen { 0.0 } else { f64::NAN }; 2]);

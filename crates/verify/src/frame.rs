@@ -6,7 +6,10 @@ use crate::scan::Scan;
 use crate::view::View;
 use crate::{color, extra, geometry, labels};
 use enfilade_dataset::RELEASED_LAYERS;
-use enfilade_frame::{Frame, LAYERS, Pass};
+use enfilade_frame::{Frame, LAYERS, Layer, Pass};
+
+/// Layers that were added to their kind later: frames of earlier versions have all others of it.
+const ADDED: [Layer; 1] = [Layer::DepthBeyondMeters];
 
 /// Checks every law about one frame. `place` names the frame.
 ///
@@ -17,7 +20,7 @@ pub fn check_frame(frame: &Frame, view: &View<'_>, place: &str) -> Card {
     let has = |pass: Pass| LAYERS.iter().any(|spec| spec.pass == pass && frame.get(spec.layer).is_some());
     let expected = LAYERS.iter().filter(|spec| match view.released {
         true => RELEASED_LAYERS.contains(&spec.layer),
-        false => !spec.pass.is_optional() || has(spec.pass),
+        false => !spec.pass.is_optional() || has(spec.pass) && !ADDED.contains(&spec.layer),
     });
     let missing: Vec<&str> = expected.filter(|spec| frame.get(spec.layer).is_none()).map(|spec| spec.name).collect();
     scan.card.observe(Law::LayersPresent, missing.len() as f64, || format!("{place}: without {}", missing.join(", ")));

@@ -96,6 +96,9 @@ fn missing_layers_and_wrong_sizes_are_found() {
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ResidualRendered)), [Law::LayersPresent]);
     assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::LightParts)), [], "light is kept in parts when asked for");
     assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::Emission)), [Law::LayersPresent]);
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer.spec().pass != Pass::Guides)), [], "guides go with what was rendered");
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::ReflectanceBeyond)), [Law::LayersPresent]);
+    assert_eq!(failures(|c, _| keep(c, &|layer| layer != Layer::DepthBeyondMeters)), [], "frames of earlier versions are without it");
     assert_eq!(failures(|c, _| c.intrinsics.height += 1), [Law::Calibration]);
 }
 
@@ -163,6 +166,9 @@ fn extra_layers_must_fit_the_geometry() {
         (Layer::Roughness, &[-0.1]),
         (Layer::NormalGeometricWorld, &[0.0, 0.0, 0.9]),
         (Layer::DepthBehindMeters, &[0.5]),
+        (Layer::DepthBeyondMeters, &[0.5]),
+        (Layer::NormalBeyondWorld, &[0.8, 0.8, 0.0]),
+        (Layer::ReflectanceBeyond, &[0.5, 1.2, 0.5]),
         (Layer::EntityBehindId, &[2.0]),
         (Layer::OcclusionBoundary, &[3.0]),
         (Layer::OpticalFlow, &[f64::NAN; 2]),

@@ -44,7 +44,7 @@ pub(super) fn dataset(root: &Path) -> Dataset {
         frame
     };
     let info = FrameInfo { seed: u64::MAX, samples: 4, config_hash: "c".into(), pose: pose(0), camera, sampling: None, recipe: None };
-    let rendered = of(&[Pass::Final, Pass::Geometry, Pass::LightParts, Pass::Extra]);
+    let rendered = of(&[Pass::Final, Pass::Geometry, Pass::Guides, Pass::LightParts, Pass::Extra]);
     dataset.write_frame("room", "cam_00", &rendered, &info, FrameTime::default()).unwrap();
     dataset.write_label_layers("room", "cam_00", 0, &of(&[Pass::Label]), "l").unwrap();
     let mut denoised = Frame::new(WIDTH, HEIGHT);

@@ -10,11 +10,12 @@ const TABLE: &str = "crates/frame/src/spec.rs";
 pub const PICTURES: &str = "docs/layers";
 
 /// Titles of the passes, in the order of the page.
-const PASSES: [(&str, &str); 6] = [
+const PASSES: [(&str, &str); 7] = [
     ("Final", "## Light and colour\n\nIn `scene_cam_XX_final_hdf5`, filtered over the pixel."),
     ("Geometry", "## Geometry\n\nIn `scene_cam_XX_geometry_hdf5`: point samples at pixel centres."),
     ("Label", "## Labels\n\nAlso in the geometry folder, joined from `render_entity_id` after rendering."),
     ("Rendered", "## As rendered, before denoising\n\nAlso in the final folder, unless `keep_rendered = false`."),
+    ("Guides", "## What guides denoising\n\nAlso in the final folder, unless `keep_rendered = false`."),
     ("LightParts", "## Light in parts\n\nAlso in the final folder, with `--light-parts` or `light_parts = true`."),
     ("Extra", "## More per pixel\n\nAlso in the geometry folder, with `--extra` or `extra = true`."),
 ];

@@ -297,6 +297,25 @@ fn ones() -> Frame {
 }
 
 #[test]
+fn what_guided_denoising_goes_with_what_was_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = Dataset::create(folder.path()).unwrap();
+    crate::analytic::write(&dataset, &small(), 1);
+    let pose = &crate::analytic::trajectory(1).poses[0];
+    let mut frame = crate::analytic::frame(&small(), pose, 7);
+    frame.insert(Layer::ReflectanceBeyond, frame.get(Layer::DiffuseReflectance).unwrap().clone());
+    dataset.write_frame(SCENE, CAMERA, &frame, &crate::analytic::info(&small(), pose), FrameTime::default()).unwrap();
+    let rendered = dataset.frame_record(SCENE, CAMERA, 0).unwrap().unwrap();
+    let has_guide = || dataset.has_layer(SCENE, CAMERA, 0, Layer::ReflectanceBeyond);
+
+    let kept = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother", "face"], true).unwrap();
+    assert!(has_guide() && kept.as_rendered() == rendered);
+    let dropped = dataset.write_denoised([SCENE, CAMERA], 0, &ones(), ["Smoother", "face"], false).unwrap();
+    assert!(!has_guide() && dropped.as_rendered() == rendered);
+    assert!(!dropped.files.keys().any(|path| path.contains("beyond")));
+}
+
+#[test]
 fn color_is_denoised_and_as_it_was_rendered_again() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = Dataset::create(folder.path()).unwrap();

@@ -4,7 +4,7 @@ mod mixes;
 
 use crate::error::Error;
 use enfilade_dataset::{ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
-use enfilade_denoise::{Denoiser, INPUTS, denoise};
+use enfilade_denoise::{Denoiser, GUIDES, denoise, inputs};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
 use enfilade_math::Rgb;
@@ -21,8 +21,8 @@ const AT_ONCE: usize = 8;
 /// The picture of a mix, exposed as the frame's own.
 const PICTURE: PreviewSpec = PreviewSpec { pass: enfilade_frame::Pass::Final, name: "display.jpg", subject: Subject::Displayed };
 
-/// Layers that guide denoising and exposure: the frame's own.
-const GUIDES: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
+/// Layers of the frame itself that denoising and exposure need, beside [`GUIDES`].
+const OWN: [Layer; 4] = [Layer::DiffuseReflectance, Layer::NormalBumpWorld, Layer::RenderEntityId, Layer::Color];
 
 pub(crate) use mixes::{Mix, mixes_of};
 
@@ -69,7 +69,9 @@ fn relight_frame(
     denoiser: &Denoiser,
 ) -> Result<(), Error> {
     let (scene, camera, number) = frame;
-    let guides = dataset.read_frame(scene, camera, number, &GUIDES)?;
+    let has = |layer: &Layer| dataset.has_layer(scene, camera, number, *layer);
+    let own: Vec<Layer> = OWN.into_iter().chain(GUIDES.into_iter().filter(has)).collect();
+    let guides = dataset.read_frame(scene, camera, number, &own)?;
     let exposure = exposure.unwrap_or_else(|| ToneMap::of_frame(&guides).unwrap_or_default().into());
     let record = dataset.frame_record(scene, camera, number)?;
     let is_denoised = record.is_some_and(|record| record.color == ColorKind::Denoised);
@@ -93,7 +95,8 @@ fn relight_frame(
     for (sum, mix) in sums.into_iter().zip(mixes) {
         let mut lit = sum.layers(&guides);
         if is_denoised {
-            let noisy = INPUTS.into_iter().filter_map(|layer| Some((layer, lit.get(layer).or_else(|| guides.get(layer))?.clone())));
+            let wanted = inputs(|layer| guides.get(layer).is_some());
+            let noisy = wanted.into_iter().filter_map(|layer| Some((layer, lit.get(layer).or_else(|| guides.get(layer))?.clone())));
             let mut whole = Frame::new(guides.width, guides.height);
             noisy.for_each(|(layer, values)| whole.insert(layer, values));
             lit = denoise(&whole, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ColorKind, Denoised, FrameRecord, counted, remove_if_there};
-use enfilade_denoise::{Denoiser, INPUTS, denoise};
+use enfilade_denoise::{Denoiser, denoise, inputs};
 use enfilade_frame::Pass;
 use enfilade_scene::{Cx, Warning};
 use enfilade_show::preview::{PREVIEWS, PreviewSpec};
@@ -92,7 +92,8 @@ pub(super) fn make_color(job: &Job, camera: &str, frame: u32) -> Result<(), Erro
 /// Denoises one frame.
 fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
-    let rendered = job.dataset.read_rendered([name, camera], frame, &INPUTS).map_err(Error::stage)?;
+    let layers = inputs(|layer| job.dataset.has_layer(name, camera, frame, layer));
+    let rendered = job.dataset.read_rendered([name, camera], frame, &layers).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
     let by = [&denoiser.name(), &denoise_hash()];
     job.dataset
@@ -152,7 +153,7 @@ fn settle(job: &Job, camera: &str, frame: u32, record: &FrameRecord) -> Result<(
 /// Removes the pictures of layers that a frame may not have any more; the preview stage makes pictures of its current layers.
 fn remove_pictures_of_rendered(job: &Job, camera: &str, frame: u32) -> Result<(), Error> {
     let name = &job.scene.name;
-    let mut previews = PREVIEWS.iter().filter(|spec| spec.pass == Pass::Rendered);
+    let mut previews = PREVIEWS.iter().filter(|spec| matches!(spec.pass, Pass::Rendered | Pass::Guides));
     let path = |spec: &PreviewSpec| job.dataset.layout().preview(name, camera, frame, spec.pass, spec.name);
     Ok(previews.try_for_each(|spec| remove_if_there(&path(spec)))?)
 }

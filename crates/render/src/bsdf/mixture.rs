@@ -3,6 +3,7 @@
 use super::layers::Layers;
 use super::lobe::Lobe;
 use super::sample::{Event, Sample, Value};
+use super::sharp::Sharp;
 use enfilade_math::{ONE_MINUS_EPSILON, Rgb, Vec3};
 
 /// A lobe and its part in the whole.
@@ -126,6 +127,15 @@ impl<'a> Mixture<'a> {
             other.specular += albedo.specular * (e.specular * passes);
         }
         (rough, sharp)
+    }
+
+    /// See [`super::Bsdf::sharp`].
+    pub fn sharp(&self, wo: Vec3) -> Sharp {
+        let mut sharp = Sharp::default();
+        for e in &self.entries {
+            sharp.add(&e.lobe.sharp(wo), e.specular * self.passes(e, wo, wo));
+        }
+        sharp
     }
 
     /// Fraction of light that the layers above a lobe let pass.

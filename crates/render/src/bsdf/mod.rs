@@ -23,6 +23,7 @@ mod mixture;
 mod resolve;
 mod rough_diffuse;
 mod sample;
+mod sharp;
 mod sheen;
 mod tables;
 
@@ -31,6 +32,7 @@ pub use layers::Layers;
 pub use lobe::{Fresnel, Lobe, thin_reflectance};
 pub use resolve::{Border, border, straight_transmittance};
 pub use sample::{Event, Sample, Value};
+pub use sharp::Sharp;
 pub use tables::{TableMaker, Tables};
 
 use enfilade_math::{Rgb, Vec3};
@@ -123,6 +125,15 @@ impl<'a> Bsdf<'a> {
         let diffuse = rest(self.reflectance * rough.diffuse, Rgb::BLACK);
         let glossy = rest(rough.specular, diffuse);
         Albedo { diffuse, glossy, sharp: rest(sharp.specular, diffuse + glossy) }
+    }
+
+    /// What a viewer at `wo` sees sharply in the surface.
+    pub fn sharp(&self, wo: Vec3) -> Sharp {
+        match &self.model {
+            Model::Black => Sharp::default(),
+            Model::One(lobe) => lobe.sharp(wo),
+            Model::Mixture(mixture) => mixture.sharp(wo),
+        }
     }
 }
 

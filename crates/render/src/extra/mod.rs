@@ -6,6 +6,7 @@ mod boundary;
 pub(crate) mod flow;
 pub(crate) mod surfaces;
 
+use crate::beyond::distance_beyond;
 use crate::geometry_pass::{Sighting, sighting};
 use crate::prepared::{AlphaTest, RenderScene};
 use crate::rows::Rows;
@@ -56,6 +57,7 @@ pub fn add_extra_layers<'a, 's: 'a>(scene: impl Into<Rows<'a, 's>>, view: &Camer
     frame.insert(Layer::SurfaceTraits, Values::U8(pixels.iter().map(|p| p.as_ref().map_or(0, |p| p.traits)).collect()));
     frame.insert(Layer::DepthBehindMeters, Values::F32(pixels.iter().map(|p| p.as_ref().map_or(f32::NAN, |p| p.behind_m)).collect()));
     frame.insert(Layer::EntityBehindId, number(|p| p.entity_behind));
+    frame.insert(Layer::DepthBeyondMeters, Values::F32(pixels.iter().map(|p| p.as_ref().map_or(f32::NAN, |p| p.beyond_m)).collect()));
     frame.insert(Layer::OcclusionBoundary, Values::U8(boundary));
     insert_flow(frame, &pixels.iter().map(|p| p.as_ref().and_then(|p| p.flow)).collect::<Vec<_>>());
 }
@@ -94,6 +96,8 @@ struct Extra {
     behind_m: f32,
     /// From 1; −1 when nothing but glass is met.
     entity_behind: i16,
+    /// Metres; NaN when the way of most of the light leaves the scene.
+    beyond_m: f32,
     flow: Option<Flow>,
 }
 
@@ -127,6 +131,7 @@ fn extra(rows: &Rows<'_, '_>, view: &CameraView<'_>, next: Option<FlowTo<'_>>, (
         traits: bits,
         behind_m,
         entity_behind,
+        beyond_m: distance_beyond(scene, &surface, distance_m as f32),
         flow: next.and_then(|next| flow::flow((scene, band), view, next, centre, (number, p_world))),
     })
 }

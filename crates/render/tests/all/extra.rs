@@ -316,3 +316,107 @@ fn a_slab_of_glass_moves_what_is_behind_it_aside() {
         assert!((f64::from(bent.way_m) - way).abs() < 1e-4, "pixel {pixel}: {} m, expected {way}", bent.way_m);
     }
 }
+
+/// Fresnel's reflectance of an interface, by the angles.
+fn fresnel(cos_i: f64, eta: f64) -> f64 {
+    let (i, t) = (cos_i.acos(), (cos_i.acos().sin() / eta).asin());
+    0.5 * (((i - t).sin() / (i + t).sin()).powi(2) + ((i - t).tan() / (i + t).tan()).powi(2))
+}
+
+/// What guides denoising at pixel `p`: the x of both normals, the others must be 0, and the reflectance.
+fn guides(frame: &Frame, p: usize) -> [f64; 3] {
+    for layer in [Layer::NormalFilteredWorld, Layer::NormalBeyondWorld] {
+        assert_eq!([1, 2].map(|c| value(frame, layer, 3 * p + c)), [0.0; 2]);
+    }
+    [Layer::NormalFilteredWorld, Layer::NormalBeyondWorld, Layer::ReflectanceBeyond].map(|layer| value(frame, layer, 3 * p))
+}
+
+/// `first` in front of the camera, a wall of 0.5 behind it at 4 m, and one of 0.25 behind the camera, at −3 m.
+fn between_walls(first: Bsdf) -> (Frame, Pose) {
+    let dark = of(Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
+    let s = scene(vec![(board(2.0, -30.0, 30.0), of(first)), (board(4.0, -60.0, 60.0), grey()), (board(-3.0, -60.0, 60.0), dark)]);
+    let pose = pose(0, DVec3::ZERO);
+    (frame(&s, &[pose]), pose)
+}
+
+#[test]
+fn mirrors_are_guided_by_what_they_show_and_varnish_by_what_it_mirrors() {
+    let mirror = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::splat(0.9).into(), alpha: 0.0.into() };
+    let varnish =
+        Bsdf::Plastic { diffuse: Rgb::splat(0.75).into(), eta: 1.5, alpha: 0.0.into(), specular: Rgb::WHITE.into(), nonlinear: false };
+    // Most of the light that varnish sends is diffuse, but its residual is a mirror image.
+    for (first, way_x) in [(mirror, 2.0 + 5.0), (varnish, 2.0)] {
+        let (frame, pose) = between_walls(first);
+        for (p, ray) in pixels() {
+            assert_eq!(guides(&frame, p), [-1.0, 1.0, 0.25]);
+            let way = way_x / (pose.world_from_camera * ray).normalize().x;
+            assert!((value(&frame, Layer::DepthBeyondMeters, p) / way - 1.0).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn panes_are_guided_by_both_sides_in_proportion_to_their_light() {
+    let (frame, pose) = between_walls(Bsdf::ThinDielectric { eta: 3.0, transmittance: Rgb::splat(0.9).into() });
+    for (p, ray) in pixels() {
+        let direction = (pose.world_from_camera * ray).normalize();
+        let r = fresnel(direction.x, 3.0);
+        let mirrored = 2.0 * r / (1.0 + r);
+        let share = mirrored / (mirrored + 0.9 * (1.0 - mirrored));
+        let [filtered, beyond, reflectance] = guides(&frame, p);
+        assert_eq!(filtered, -1.0);
+        assert!((beyond - (share - (1.0 - share))).abs() < 5e-3, "{beyond} at a share of {share}");
+        assert!((reflectance - (0.25 * share + 0.5 * (1.0 - share))).abs() < 2e-3, "{reflectance} at a share of {share}");
+        assert!((value(&frame, Layer::DepthBeyondMeters, p) * direction.x - 4.0).abs() < 1e-4);
+    }
+    // A pane of window glass mirrors too little to matter, and rough metal shows nothing that could be made out.
+    let (through, _) = between_walls(thin(0.9));
+    let rough = Bsdf::Conductor { eta: Rgb::BLACK, k: Rgb::BLACK, reflectance: Rgb::WHITE.into(), alpha: 0.3.into() };
+    let (blurred, _) = between_walls(rough);
+    for (p, _) in pixels() {
+        assert_eq!(guides(&through, p), [-1.0, -1.0, 0.5]);
+        assert_eq!(guides(&blurred, p), [-1.0, -1.0, 1.0]);
+    }
+}
+
+#[test]
+fn a_bent_way_through_a_block_of_glass_ends_on_the_wall_behind_it() {
+    let glass = Bsdf::Dielectric { eta: 1.5, alpha: 0.0.into(), transmittance: Rgb::WHITE.into(), absorption: Rgb::BLACK };
+    let mut block = board(2.0, -30.0, 30.0);
+    let mut far_side = board(3.0, -30.0, 30.0);
+    far_side.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    block.append(&far_side);
+    let s = scene(vec![(block, of(glass)), (board(4.0, -60.0, 60.0), grey())]);
+    let pose = pose(0, DVec3::ZERO);
+    let frame = frame(&s, &[pose]);
+    for (p, ray) in pixels() {
+        assert_eq!(guides(&frame, p), [-1.0, -1.0, 0.5]);
+        let cos = (pose.world_from_camera * ray).normalize().x;
+        let cos_within = (1.0 - (1.0 - cos * cos) / 2.25).sqrt();
+        let way = 2.0 / cos + 1.0 / cos_within + 1.0 / cos;
+        assert!((value(&frame, Layer::DepthBeyondMeters, p) / way - 1.0).abs() < 1e-4, "pixel {p}");
+    }
+}
+
+#[test]
+fn guides_are_means_over_the_samples_and_the_background_has_none() {
+    // The edge of the board runs through the middle column of pixels.
+    let s = scene(vec![(board(4.0, -30.0, 0.0), grey())]);
+    let camera = Camera::from(CAMERA);
+    let pose = Pose::look_at(0, DVec3::ZERO, DVec3::X, DVec3::Z).unwrap();
+    let prepared = RenderScene::new(&s, &Quiet).unwrap();
+    let config = RenderConfig { samples: 64, adaptive: false, ..RenderConfig::default() };
+    let view = CameraView::still(&camera, &pose);
+    let guide = Guide::learn(&prepared, &[view], &config);
+    let frame = render_frame(&prepared, &guide, &view, &config, &Quiet).unwrap();
+    let mut shared = 0;
+    for (p, _) in pixels() {
+        let [filtered, beyond, reflectance] = guides(&frame, p);
+        // Colour shows as much of the board: the sky behind it is white, the board grey by an unknown part.
+        assert!((-1.0..=0.0).contains(&filtered) && (beyond - filtered).abs() < 0.2 && reflectance == 1.0);
+        let seen = value(&frame, Layer::DiffuseReflectance, 3 * p) / 0.5;
+        assert!((filtered + seen).abs() < 2e-3, "{filtered}, but {seen} of the pixel shows the board");
+        shared += usize::from(filtered > -1.0 && filtered < 0.0);
+    }
+    assert!(shared > 30, "{shared} pixels show both");
+}
