@@ -80,7 +80,7 @@ fn measure(scene: &Scene, [width, height]: [u32; 2], (counts, reference): (&[u32
 /// A way to denoise a frame's colour.
 type Way = (&'static str, fn(&Frame, &Denoiser) -> Result<Vec<f32>, DenoiseError>);
 
-const WAYS: [Way; 8] = [
+const WAYS: [Way; 9] = [
     ("color at once, no guides", |frame, denoiser| {
         let (color, one, zero) = (picture(frame, Layer::Color), white(frame), vec![0.0; 3 * frame.pixels()]);
         Ok(filter(frame, denoiser, &color, &one, &zero))

@@ -16,7 +16,7 @@ pub const INPUTS: [Layer; 4] = [Layer::DiffuseIllumination, Layer::Residual, Lay
 pub const GUIDES: [Layer; 3] = [Layer::NormalFilteredWorld, Layer::NormalBeyondWorld, Layer::ReflectanceBeyond];
 
 /// The layers that denoising reads of a frame: [`INPUTS`], and of [`GUIDES`] those that it has.
-pub fn inputs(has: impl Fn(Layer) -> bool) -> Vec<Layer> {
+pub fn inputs_of(has: impl Fn(Layer) -> bool) -> Vec<Layer> {
     INPUTS.into_iter().chain(GUIDES.into_iter().filter(|layer| has(*layer))).collect()
 }
 

@@ -30,5 +30,5 @@ mod network;
 
 pub use denoiser::Denoiser;
 pub use error::DenoiseError;
-pub use layers::{GUIDES, INPUTS, Noisy, denoise, inputs};
+pub use layers::{GUIDES, INPUTS, Noisy, denoise, inputs_of};
 pub use network::Instructions;

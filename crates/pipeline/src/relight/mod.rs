@@ -4,7 +4,7 @@ mod mixes;
 
 use crate::error::Error;
 use enfilade_dataset::{ColorKind, Dataset, DatasetError, Fixture, ToneMapRow};
-use enfilade_denoise::{Denoiser, GUIDES, denoise, inputs};
+use enfilade_denoise::{Denoiser, GUIDES, denoise, inputs_of};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{DENOISED, Frame, Layer, Values, compose, f16};
 use enfilade_math::Rgb;
@@ -95,7 +95,7 @@ fn relight_frame(
     for (sum, mix) in sums.into_iter().zip(mixes) {
         let mut lit = sum.layers(&guides);
         if is_denoised {
-            let wanted = inputs(|layer| guides.get(layer).is_some());
+            let wanted = inputs_of(|layer| guides.get(layer).is_some());
             let noisy = wanted.into_iter().filter_map(|layer| Some((layer, lit.get(layer).or_else(|| guides.get(layer))?.clone())));
             let mut whole = Frame::new(guides.width, guides.height);
             noisy.for_each(|(layer, values)| whole.insert(layer, values));

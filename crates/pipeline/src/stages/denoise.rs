@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::report::StageCx;
 use crate::workdir::Hash;
 use enfilade_dataset::{ColorKind, Denoised, FrameRecord, counted, remove_if_there};
-use enfilade_denoise::{Denoiser, denoise, inputs};
+use enfilade_denoise::{Denoiser, denoise, inputs_of};
 use enfilade_frame::Pass;
 use enfilade_scene::{Cx, Warning};
 use enfilade_show::preview::{PREVIEWS, PreviewSpec};
@@ -92,7 +92,7 @@ pub(super) fn make_color(job: &Job, camera: &str, frame: u32) -> Result<(), Erro
 /// Denoises one frame.
 fn denoise_frame(job: &Job, camera: &str, frame: u32, denoiser: &Denoiser) -> Result<(), Error> {
     let name = &job.scene.name;
-    let layers = inputs(|layer| job.dataset.has_layer(name, camera, frame, layer));
+    let layers = inputs_of(|layer| job.dataset.has_layer(name, camera, frame, layer));
     let rendered = job.dataset.read_rendered([name, camera], frame, &layers).map_err(Error::stage)?;
     let layers = denoise(&rendered, |noisy| denoiser.filter(noisy)).map_err(Error::stage)?;
     let by = [&denoiser.name(), &denoise_hash()];

@@ -346,6 +346,33 @@ fn albedo_is_about_what_sampling_finds() {
 }
 
 #[test]
+fn what_is_sharp_is_what_sampling_finds_in_single_directions() {
+    let mut with = [0; 2];
+    for_each_case(|name, bsdf, wo, _| {
+        let sharp = bsdf.sharp(wo);
+        let (mut rng, mut mirrored, mut through) = (Rng::new(6), Mean::EMPTY, Mean::EMPTY);
+        for _ in 0..20_000 {
+            let u = [rng.next_f32(), rng.next_f32(), rng.next_f32()];
+            let single = bsdf.sample(wo, u).filter(|s| s.event != Event::Finite);
+            let power = single.map_or(0.0, |s| f64::from(power_of(name, s.weight.specular, s.wi)));
+            let crosses = single.is_some_and(|s| s.wi.z < 0.0);
+            mirrored.add(if crosses { 0.0 } else { power });
+            through.add(if crosses { power } else { 0.0 });
+            if let Some(s) = single {
+                let expected = if crosses { sharp.bent.unwrap_or(-wo) } else { Vec3::new(-wo.x, -wo.y, wo.z) };
+                assert!(s.wi.distance(expected) < 1e-5, "{name}: {} sampled, {expected} said", s.wi);
+            }
+        }
+        for (way, sampled, said) in [(0, mirrored, sharp.mirrored), (1, through, sharp.through)] {
+            let error = (sampled.value() - f64::from(said.g)).abs();
+            assert!(error <= 5.0 * sampled.standard_error() + 1e-3, "{name}: {} sampled, {} said", sampled.value(), said.g);
+            with[way] += usize::from(said.g > 0.0);
+        }
+    });
+    assert!(with[0] > 20 && with[1] > 5, "{with:?}");
+}
+
+#[test]
 fn metals_and_clear_glasses_keep_all_light_at_every_roughness_and_angle() {
     let white = || Rgb::WHITE.into();
     for alpha in [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0] {

@@ -69,6 +69,7 @@ function ownRange(look, summary) {
 /** Groups of layers for the lists, in order. */
 export const GROUPS = [
     { name: "Light", passes: ["final", "rendered"] },
+    { name: "Guides of denoising", passes: ["guides"] },
     { name: "Light in parts", passes: ["split"] },
     { name: "Geometry", passes: ["geometry"] },
     { name: "Labels", passes: ["label"] },
