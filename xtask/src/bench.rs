@@ -14,7 +14,7 @@ struct Bench {
 }
 
 /// All measurements; each is an instrument of that name.
-const BENCHES: [Bench; 8] = [
+const BENCHES: [Bench; 9] = [
     Bench {
         name: "rays",
         about: "millions of rays per second of one thread, ours and Embree's, which it fetches: camera, bounced, shadow",
@@ -25,6 +25,7 @@ const BENCHES: [Bench; 8] = [
     Bench { name: "memory", about: "memory for a million triangles under eight textures of 4096x4096" },
     Bench { name: "suggest", about: "how good suggested labels are on held-out scenes; needs ENFILADE_SCENES" },
     Bench { name: "denoise", about: "error with and without denoising, in the demo's room" },
+    Bench { name: "flicker", about: "how much delivered surfaces change between the frames of a walk, in the demo's room" },
     Bench {
         name: "network",
         about: "what the denoiser in the binary costs beside Open Image Denoise, which it installs, and how far it is from it",

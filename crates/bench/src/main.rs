@@ -10,6 +10,7 @@ mod arguments;
 mod denoise;
 mod explore;
 mod faults;
+mod flicker;
 mod homes;
 mod learn;
 mod measure;
@@ -45,7 +46,7 @@ struct Instrument {
 }
 
 /// All instruments.
-const INSTRUMENTS: [Instrument; 21] = [
+const INSTRUMENTS: [Instrument; 22] = [
     Instrument { name: "rays", about: "millions of rays per second of one thread, ours and Embree's", run: || done(rays::run()) },
     Instrument {
         name: "explore",
@@ -61,6 +62,7 @@ const INSTRUMENTS: [Instrument; 21] = [
     Instrument { name: "memory", about: "memory for a million triangles under eight textures of 4096x4096", run: || done(memory::run()) },
     Instrument { name: "suggest", about: "how good suggested labels are on held-out scenes", run: || done(suggest::run()) },
     Instrument { name: "denoise", about: "error with and without denoising, in the demo's room", run: || done(denoise::run()) },
+    Instrument { name: "flicker", about: "how much delivered surfaces change between the frames of a walk", run: || done(flicker::run()) },
     Instrument { name: "network", about: "what the denoiser costs, and how far it is from its reference", run: || done(network::run()) },
     Instrument {
         name: "measure",

@@ -131,12 +131,12 @@ async fn the_dataset_its_scenes_cameras_and_frames_are_told() {
     let folder = tempfile::tempdir().unwrap();
     dataset(folder.path());
     let all = json(folder.path(), "/api/view/dataset").await;
-    assert_eq!((&all["scenes"], all["layers"].as_array().unwrap().len()), (&serde_json::json!(["room"]), 43));
+    assert_eq!((&all["scenes"], all["layers"].as_array().unwrap().len()), (&serde_json::json!(["room"]), LAYERS.len()));
     let scene = json(folder.path(), "/api/view/scene/room").await;
     assert_eq!((&scene["cameras"], scene["classes"].as_array().unwrap().len()), (&serde_json::json!(["cam_00"]), 40));
     let camera = json(folder.path(), "/api/view/camera/room/cam_00").await;
     let frames = camera["frames"].as_array().unwrap();
-    assert_eq!(frames.iter().map(|frame| frame["layers"].as_array().unwrap().len()).collect::<Vec<_>>(), [43, 0, 0]);
+    assert_eq!(frames.iter().map(|frame| frame["layers"].as_array().unwrap().len()).collect::<Vec<_>>(), [LAYERS.len(), 0, 0]);
     let [fault] = frames[1]["faults"].as_array().unwrap().as_slice() else { panic!("{}", frames[1]) };
     assert_eq!((&fault["gate"], &fault["value"], &fault["limit"]), (&"blocked".into(), &0.75.into(), &0.5.into()));
     assert_eq!((&fault["by"], &fault["rejects"]), (&"planning".into(), &Value::Bool(true)));

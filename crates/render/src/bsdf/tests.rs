@@ -369,7 +369,7 @@ fn what_is_sharp_is_what_sampling_finds_in_single_directions() {
             with[way] += usize::from(said.g > 0.0);
         }
     });
-    assert!(with[0] > 20 && with[1] > 5, "{with:?}");
+    assert!(with[0] >= 16 && with[1] >= 8, "{with:?}");
 }
 
 #[test]
