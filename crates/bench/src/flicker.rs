@@ -3,7 +3,7 @@
 //! `flicker [SCENE | home]… [--samples N] [--frames N] [--size WxH] [--reference N]` walks sideways past each scene's first camera, 2 cm
 //! and half a degree a frame, and renders every frame with 16 samples. Flicker is the mean of |a − b| over the mean of a, where a is the
 //! luminance of a pixel and b that of the place to which exact flow leads, interpolated in the next frame, over pixels whose point the next
-//! frame shows. What shines and textures change with the view, too: pictures of 256 samples tell how much.
+//! frame shows. What shines changes with the view, too, and so do textures between pixels: denoised pictures of 256 samples tell how much.
 
 use anyhow::{Context, Result};
 use enfilade_denoise::{DenoiseError, Denoiser, GUIDES, denoise};
@@ -94,8 +94,9 @@ fn measure(scene: &Scene, walk: &Walk) -> Result<()> {
         println!("  {what:<46} {:>4} samples: {:.4}", walk.samples, flicker(&frames, &pictures));
     }
     let clean = render(walk.reference)?;
-    let pictures: Vec<Vec<f32>> = clean.iter().map(luminance).collect();
-    println!("  {:<46} {:>4} samples: {:.4}", "as rendered", walk.reference, flicker(&clean, &pictures));
+    let (what, picture) = WAYS[WAYS.len() - 1];
+    let pictures = clean.iter().map(|frame| picture(frame, &denoiser)).collect::<Result<Vec<_>, _>>()?;
+    println!("  {what:<46} {:>4} samples: {:.4}", walk.reference, flicker(&clean, &pictures));
     Ok(())
 }
 

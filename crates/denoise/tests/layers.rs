@@ -1,7 +1,7 @@
 //! The promises of denoising: the identity, the layers it reads, the noise it removes, and that the network in the binary gives the results
 //! of the library of Open Image Denoise.
 
-use enfilade_denoise::{DenoiseError, Denoiser, INPUTS, Noisy, denoise};
+use enfilade_denoise::{DenoiseError, Denoiser, GUIDES, INPUTS, Noisy, denoise, inputs_of};
 use enfilade_frame::{Frame, Layer, Pass, Values, f16};
 
 const WIDTH: u32 = 96;
@@ -75,6 +75,28 @@ fn a_filter_sees_finite_pictures_and_one_that_changes_nothing_gives_back_what_wa
     for part in PARTS {
         assert_eq!(rendered.get(part), denoised.get(part));
     }
+}
+
+#[test]
+fn light_is_guided_by_filtered_normals_and_residual_by_what_is_seen_beyond() {
+    let mut rendered = frame(1.0);
+    let guides_of = |frame: &Frame| {
+        let mut seen = Vec::new();
+        denoise(frame, |noisy| {
+            seen.push((noisy.albedo[7], noisy.normal[7]));
+            noisy.color.to_vec()
+        })
+        .unwrap();
+        seen
+    };
+    // The wall faces −y; without the layers that guide, that guides both.
+    assert_eq!(inputs_of(|layer| rendered.get(layer).is_some()), INPUTS);
+    assert_eq!(guides_of(&rendered), [(1.0, -1.0); 2]);
+    for (layer, value) in GUIDES.into_iter().zip([0.5, -0.25, 0.75]) {
+        rendered.insert(layer, Values::F16(vec![f16::from_f32(value); 3 * rendered.pixels()]));
+    }
+    assert_eq!(inputs_of(|layer| rendered.get(layer).is_some()), [&INPUTS[..], &GUIDES].concat());
+    assert_eq!(guides_of(&rendered), [(1.0, 0.5), (0.75, -0.25)]);
 }
 
 #[test]
