@@ -105,7 +105,7 @@ fn step(first: &Pose, i: usize) -> Pose {
     let to_right = first.world_from_camera.x_axis * (STEP_M * i as f64);
     let turn = DMat3::from_axis_angle(first.world_from_camera.y_axis, (TURN_DEG * i as f64).to_radians());
     let (position, look_at) = (first.position + to_right, first.position + to_right + turn * (first.look_at - first.position));
-    Pose { frame: i as u32, position, look_at, world_from_camera: turn * first.world_from_camera, ..*first }
+    Pose { frame: i as u32, position, look_at, world_from_camera: turn * first.world_from_camera }
 }
 
 fn luminance(frame: &Frame) -> Vec<f32> {

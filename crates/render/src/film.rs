@@ -126,7 +126,7 @@ impl PixelSum {
 
     /// The pixel's guides; without samples, those of the background.
     pub fn guides(&self) -> PixelGuides {
-        let (all, followed) = (self.samples.max(1) as f32, self.samples.min(FOLLOWED).max(1) as f32);
+        let (all, followed) = (self.samples.max(1) as f32, self.samples.clamp(1, FOLLOWED) as f32);
         let reflectance = if self.samples == 0 { Rgb::WHITE } else { self.reflectance_beyond / followed };
         PixelGuides {
             normal: (self.normal / all).to_array().map(f16::from_f32),
