@@ -270,7 +270,7 @@ mod tests {
     fn tiff_has_palettes_and_grey_with_alpha() {
         // Written by hand after TIFF 6.0: 3 x 2 pixels of 2 bits, colours of 16 bits each.
         let entry = |tag: u16, kind: u16, count: u32, value: u32, big: bool| {
-            let value = if kind == 3 && big { value << 16 } else { value };
+            let value = if (kind, count, big) == (3, 1, true) { value << 16 } else { value };
             let le = [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat();
             let be = [&tag.to_be_bytes()[..], &kind.to_be_bytes(), &count.to_be_bytes(), &value.to_be_bytes()].concat();
             if big { be } else { le }
