@@ -64,9 +64,9 @@ impl Archive {
         let known: HashSet<String> =
             if folder.is_empty() && zips.is_empty() { HashSet::new() } else { self.names.iter().cloned().collect() };
         for raw in zip.file_names().filter(|name| !name.ends_with(['/', '\\'])) {
-            // Some programs for Windows write its separators.
-            let name = format!("{folder}{}", raw.replace('\\', "/"));
-            if !known.contains(&name) {
+            let plain = plain_name(raw);
+            let name = format!("{folder}{plain}");
+            if !plain.is_empty() && !known.contains(&name) {
                 self.names.push(name);
                 self.entries.push((zips.len(), raw.to_string()));
             }
@@ -187,6 +187,13 @@ impl Archive {
     }
 }
 
+/// The path of a file within its archive as unpacking programs take it: separators of Windows are read, and steps that lead nowhere
+/// (`./a`, `/a`, `a//b`) or out of the archive (`../a`) left out.
+fn plain_name(raw: &str) -> String {
+    let steps = raw.split(['/', '\\']).filter(|step| !matches!(*step, "" | "." | ".."));
+    steps.collect::<Vec<_>>().join("/")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,6 +246,22 @@ mod tests {
         assert_eq!(archive.read_path(Path::new("m.zip/source/a.png")).unwrap(), b"outer");
         assert!(archive.contains_folder(Path::new("m.zip/textures")) && !archive.contains_folder(Path::new("m.zip/maps")));
         assert!(archive.names_in(Path::new("m.zip/.."), false).is_empty());
+    }
+
+    #[test]
+    fn names_are_taken_as_unpacking_programs_take_them() {
+        // What `unzip` writes for each of these names, below the folder in which it is started.
+        let names = [("./a.obj", "a.obj"), ("/b.obj", "b.obj"), ("../c.obj", "c.obj"), ("d//./e.obj", "d/e.obj"), ("f\\g.obj", "f/g.obj")];
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        for (raw, _) in names {
+            zip.start_file(raw, SimpleFileOptions::default()).unwrap();
+            zip.write_all(raw.as_bytes()).unwrap();
+        }
+        let archive = Archive::new(Path::new("m.zip"), zip.finish().unwrap().into_inner()).unwrap();
+        assert_eq!(archive.names(), names.map(|(_, name)| name));
+        for (raw, name) in names {
+            assert_eq!(archive.read_path(&Path::new("m.zip").join(name)).unwrap(), raw.as_bytes());
+        }
     }
 
     #[test]

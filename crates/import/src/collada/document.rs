@@ -71,13 +71,21 @@ pub(super) fn number(word: &str) -> Option<f64> {
 pub(super) fn numbers(node: Node) -> (Vec<f64>, usize) {
     let mut odd = 0;
     let texts = node.children().filter_map(|n| n.text().filter(|_| n.is_text()));
-    let found = texts.flat_map(str::split_ascii_whitespace).map(|word| {
-        number(word).unwrap_or_else(|| {
-            odd += 1;
-            0.0
-        })
-    });
-    (found.collect(), odd)
+    let mut found = Vec::new();
+    for word in texts.flat_map(str::split_ascii_whitespace) {
+        // A comma is a decimal point, between numbers what separates them.
+        if let Some(number) = number(word) {
+            found.push(number);
+            continue;
+        }
+        for part in word.split(',').filter(|part| !part.is_empty()) {
+            found.push(number(part).unwrap_or_else(|| {
+                odd += 1;
+                0.0
+            }));
+        }
+    }
+    (found, odd)
 }
 
 /// Numbers of an element, as many as are wanted; `None` where there are fewer, or something else.

@@ -66,8 +66,11 @@ fn state_space(dae: &Dae, a: &mut Assembly) {
             1.0
         }
     };
-    let up = asset.and_then(|asset| child(asset, "up_axis")).map(text);
-    let axes = match up.as_deref() {
+    let up = asset.and_then(|asset| child(asset, "up_axis")).map(text).filter(|up| !up.is_empty());
+    if let Some(up) = up.as_deref().filter(|up| !["X_UP", "Y_UP", "Z_UP"].iter().any(|known| known.eq_ignore_ascii_case(up))) {
+        a.warn("asset", format!("found {up:?} as up_axis, expected X_UP, Y_UP or Z_UP; y was taken, up_axis (--up-axis) sets another"));
+    }
+    let axes = match up.map(|up| up.to_ascii_uppercase()).as_deref() {
         Some("Z_UP") => DMat3::IDENTITY,
         // x up, with y to the left and z towards the viewer.
         Some("X_UP") => DMat3::from_cols(DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y),

@@ -29,7 +29,8 @@
 //! `extras` of a node may carry `"semantic"`, a NYU40 class as its id (1 to 40) or name, or `"semantic_id"`, its id, and `"instance"`, a
 //! number from 1, or −1 for none. They apply to the node's own parts and to all nodes below it without labels of their own. Without a
 //! number each node with a class is an instance, together with the nodes below it that have none of their own; under
-//! `EXT_mesh_gpu_instancing` each place is. Wall, floor and ceiling are not counted.
+//! `EXT_mesh_gpu_instancing` each place is. Wall, floor and ceiling are not counted. `extras` of a mesh label the parts of nodes that state
+//! no class themselves; each node that shows it is an instance.
 //!
 //! # Environments
 //!

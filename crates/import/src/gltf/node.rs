@@ -79,12 +79,13 @@ pub(super) fn place(document: &Document, roots: &[usize], assembly: &mut Assembl
         }
         let file_from_node = file_from_parent * document.local_transform(index);
         let object = objects.of(document, node, index, parent, assembly);
-        let label = label::of(node, index, object, label, assembly);
+        let label = label::of(document, index, object, label, assembly);
+        let own_label = label::of_parts(document, index, object, label, assembly);
         let body = moving(document, &animations, index, file_from_parent, assembly)
             .and_then(|(name, frame, states)| assembly.push_body(&name, body, frame, states).or_else(|| assembly.no_body(&name)))
             .or(body);
         let before = assembly.contents();
-        placer.node((node, index, body), file_from_node, (object, parent), label, assembly)?;
+        placer.node((node, index, body), file_from_node, (object, parent), own_label, assembly)?;
         if let Some(body) = body.filter(|_| node.skin.is_none()) {
             assembly.carry(body, before);
         }
@@ -170,7 +171,13 @@ impl Placer<'_> {
                 None => a.warn(format!("nodes[{index}]"), format!("camera {name:?} is not perspective and was left out")),
                 Some(p) => {
                     let aspect = p.aspect_ratio.map_or(DEFAULT_ASPECT, f64::from);
-                    let fov_x = 2.0 * ((0.5 * f64::from(p.yfov)).tan() * aspect).atan();
+                    let mut fov_y = f64::from(p.yfov);
+                    if fov_y >= std::f64::consts::PI {
+                        let problem = format!("camera {name:?}: found {fov_y} as yfov, expected radians below 3.14; degrees were taken");
+                        a.warn(format!("nodes[{index}]"), problem);
+                        fov_y = fov_y.to_radians();
+                    }
+                    let fov_x = 2.0 * ((0.5 * fov_y).tan() * aspect).atan();
                     a.push_camera(&name, file_from_node, fov_x, aspect);
                 }
             }

@@ -68,8 +68,34 @@ fn without_place(error: &serde_json::Error) -> String {
     message.rsplit_once(" at line ").map_or(message.clone(), |(message, _)| message.to_string())
 }
 
+/// Flags, which are neither numbers nor text.
+const FLAGS: [&str; 2] = ["doubleSided", "normalized"];
+/// Values that are numbers or lists of numbers, beside those called a factor.
+const NUMBERS: [&str; 14] = [
+    "translation",
+    "rotation",
+    "scale",
+    "matrix",
+    "weights",
+    "color",
+    "intensity",
+    "range",
+    "ior",
+    "yfov",
+    "znear",
+    "zfar",
+    "aspectRatio",
+    "alphaCutoff",
+];
+/// The name of numbers within lists of numbers.
+const NUMBER_WITHIN: &str = "Factor";
+
+fn is_number(key: &str) -> bool {
+    NUMBERS.contains(&key) || key.ends_with("Factor") || key.ends_with("Strength") || key.ends_with("ConeAngle")
+}
+
 /// Corrects mistakes that other readers accept as well: whole numbers written as `3.0`, `null` for missing values, versions and names that
-/// are numbers. `key` is the name of the value. The contents of extras stay.
+/// are numbers, numbers that are text, colours with or without alpha. `key` is the name of the value. The contents of extras stay.
 fn put_right(value: &mut Value, key: &str) {
     match value {
         Value::Number(number) => {
@@ -82,9 +108,23 @@ fn put_right(value: &mut Value, key: &str) {
                 *value = (whole as i64).into();
             }
         }
-        Value::Array(list) => list.iter_mut().for_each(|item| put_right(item, "")),
+        Value::String(text) if matches!(text.as_str(), "true" | "false") && FLAGS.contains(&key) => *value = (text == "true").into(),
+        Value::String(text) if is_number(key) => {
+            if let Some(number) = text.trim().parse::<f64>().ok().and_then(serde_json::Number::from_f64) {
+                *value = Value::Number(number);
+            }
+        }
+        Value::Array(list) => {
+            let key = if is_number(key) { NUMBER_WITHIN } else { "" };
+            list.iter_mut().for_each(|item| put_right(item, key));
+        }
         Value::Object(table) => {
             table.retain(|_, item| !item.is_null());
+            for (key, length) in [("baseColorFactor", 4), ("emissiveFactor", 3), ("color", 3)] {
+                if let Some(list) = table.get_mut(key).and_then(Value::as_array_mut).filter(|list| matches!(list.len(), 3 | 4)) {
+                    list.resize(length, json!(1.0));
+                }
+            }
             table.iter_mut().filter(|(key, _)| *key != "extras").for_each(|(key, item)| put_right(item, key));
         }
         _ => (),

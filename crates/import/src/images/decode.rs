@@ -52,6 +52,11 @@ pub(crate) fn decode(name: &str, bytes: &[u8], usage: Use) -> Result<Decoded, St
     {
         return float_image(name, picture);
     }
+    if format == ImageFormat::Tiff
+        && let Some((width, height, texels)) = tiff::decode_others(bytes)?
+    {
+        return of_surface(name, Surface::Bytes { width, height, texels }, usage);
+    }
     let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
     check_size(size.0, size.1)?;
     // The library's own limit of 512 MB for what it decodes applies too.
@@ -259,6 +264,42 @@ mod tests {
         encoder.write_image::<::tiff::encoder::colortype::Gray32Float>(2, 1, &[0.75, 3.0]).unwrap();
         let pixels = decode("height.tif", &bytes.into_inner(), Use::Data).unwrap().image.pixels;
         assert_eq!(pixels, Pixels::RgbF32(vec![[0.75; 3], [3.0; 3]]));
+    }
+
+    #[test]
+    fn tiff_has_palettes_and_grey_with_alpha() {
+        // Written by hand after TIFF 6.0: 3 x 2 pixels of 2 bits, colours of 16 bits each.
+        let entry = |tag: u16, kind: u16, count: u32, value: u32, big: bool| {
+            let value = if (kind, count, big) == (3, 1, true) { value << 16 } else { value };
+            let le = [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value.to_le_bytes()].concat();
+            let be = [&tag.to_be_bytes()[..], &kind.to_be_bytes(), &count.to_be_bytes(), &value.to_be_bytes()].concat();
+            if big { be } else { le }
+        };
+        let map: [u16; 12] = [0, 0xffff, 0x8080, 0x1010, 0, 0, 0x4040, 0x2020, 0, 0, 0xc0c0, 0x3030];
+        for big in [false, true] {
+            let short = |v: u16| if big { v.to_be_bytes() } else { v.to_le_bytes() };
+            let long = |v: u32| if big { v.to_be_bytes() } else { v.to_le_bytes() };
+            let entries = [
+                (256, 3, 1, 3),
+                (257, 3, 1, 2),
+                (258, 3, 1, 2),
+                (259, 3, 1, 1),
+                (262, 3, 1, 3),
+                (273, 4, 1, 8),
+                (277, 3, 1, 1),
+                (278, 3, 1, 2),
+                (279, 4, 1, 2),
+                (320, 3, 12, 10),
+            ];
+            let mut bytes = [if big { &b"MM"[..] } else { b"II" }, &short(42), &long(34), &[0b0001_1000, 0b1110_0100]].concat();
+            bytes.extend(map.iter().flat_map(|v| short(*v)));
+            bytes.extend(short(entries.len() as u16));
+            bytes.extend(entries.iter().flat_map(|(tag, kind, count, value)| entry(*tag, *kind, *count, *value, big)));
+            bytes.extend(long(0));
+            let pixels = decode("a.tif", &bytes, Use::Color).unwrap_or_else(|e| panic!("{e}")).image.pixels;
+            let [black, red, blue, grey] = [[0, 0, 0, 255], [255, 0, 0, 255], [128, 64, 192, 255], [16, 32, 48, 255]];
+            assert_eq!(pixels, Pixels::Rgba8 { srgb: true, texels: vec![black, red, blue, grey, blue, red] });
+        }
     }
 
     #[test]

@@ -28,16 +28,30 @@ impl<'d> Joints<'d> {
     pub(crate) fn of(robot: Node<'d, '_>, links: &[Node<'d, '_>], a: &mut Assembly) -> Result<Self, ImportError> {
         let mut below: HashMap<&str, Vec<(&'d str, Node)>> = HashMap::new();
         let mut has_parent: HashSet<&str> = HashSet::new();
+        let declared: HashSet<&str> = links.iter().map(|link| name_of(*link)).collect();
+        // Joints whose parent no link of the file is: what they hold hangs on the world.
+        let mut astray: Vec<(&'d str, Node)> = Vec::new();
         for joint in children(robot, "joint") {
             let link = |tag: &str| child(joint, tag).and_then(|n| n.attribute("link"));
             let (Some(parent), Some(child)) = (link("parent"), link("child")) else { continue };
-            below.entry(parent).or_default().push((child, joint));
             has_parent.insert(child);
+            if declared.contains(parent) {
+                below.entry(parent).or_default().push((child, joint));
+                continue;
+            }
+            if parent != "world" {
+                let message = format!("its parent {parent:?} is no link of the file; {child:?} hangs on the world in its place");
+                a.warn(format!("joint {:?}", name_of(joint)), message);
+            }
+            astray.push((child, joint));
         }
         let world = Link { name: "world".into(), file_from_link: DAffine3::IDENTITY, jointed: false, mocap: false, body: None, parent: 0 };
         let mut all = Self { joints: Vec::new(), links: vec![world], stands: HashMap::new(), movers: vec![None] };
         let roots = links.iter().map(|link| name_of(*link)).filter(|name| !has_parent.contains(name));
         let mut stack: Vec<(&'d str, DAffine3, usize, Option<Node>)> = roots.map(|name| (name, DAffine3::IDENTITY, 0, None)).collect();
+        for (child, joint) in astray {
+            stack.push((child, origin(joint, a)?, 0, Some(joint)));
+        }
         while let Some((name, file_from_link, parent, joint)) = stack.pop() {
             if all.stands.contains_key(name) {
                 a.warn(format!("link {name:?}"), "several joints hold it; it hangs on one of them");

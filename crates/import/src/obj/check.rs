@@ -6,6 +6,10 @@ use super::library::{Entry, Numbers};
 const NUMBERS: [&str; 9] = ["ns", "ni", "d", "tr", "illum", "pr", "pm", "pc", "pcr"];
 /// Statements of a colour or a number.
 const COLORS: [&str; 5] = ["kd", "ks", "ke", "tf", "ps"];
+/// Statements of shares of light.
+const SHARES: [&str; 3] = ["kd", "ks", "tf"];
+/// A share above this is no rounding error.
+const MOST: f32 = 1.001;
 /// Statements of a picture.
 const MAPS: [&str; 9] = ["map_kd", "map_ks", "map_ke", "map_d", "map_pr", "map_pm", "norm", "map_bump", "bump"];
 /// Statements that light transport makes superfluous: ambient light, the sharpness of reflections, smoothing of textures.
@@ -40,6 +44,9 @@ fn of_numbers(key: &str, statement: &str) -> Option<String> {
         }
         Numbers::These(_) if statement.starts_with("-halo") => {
             Some(format!("{key} -halo, which depends on the direction, was read as the same in all directions"))
+        }
+        Numbers::These(values) if SHARES.contains(&key) && values.iter().any(|v| *v > MOST) => {
+            Some(format!("{key}: found {statement:?}, expected 0 to 1; what is above was taken as 1: divide colours of 0 to 255 by 255"))
         }
         Numbers::These(_) => None,
     }

@@ -33,7 +33,9 @@ impl<'m> Map<'m> {
         let (path, tail) = behind.unwrap_or((rest, ""));
         map.options(tail.trim());
         map.path = unquoted(path.trim_end());
-        (!map.path.is_empty()).then_some(map)
+        // Blender before 3.2 writes a dot for pictures without a file; a folder is no picture either.
+        let is_folder = map.path.ends_with(['/', '\\']) || matches!(map.path, "." | "..");
+        (!map.path.is_empty() && !is_folder).then_some(map)
     }
 
     /// Takes over the options at the beginning of a text, and gives what follows them. `None` where an option ends the text before its value.
@@ -139,7 +141,9 @@ mod tests {
         assert_eq!((map.path, map.scale, map.offset, map.clamp, map.bump), ("my wood texture.png", [2.0, 3.0], [0.5, 0.0], true, 0.3));
         assert_eq!(Map::parse("3 chairs.png").unwrap().path, "3 chairs.png");
         assert_eq!(Map::parse("-imfchan m \"my wood.png\"").map(|m| (m.path, m.channel)), Some(("my wood.png", Some(3))));
-        assert!(Map::parse("-bm 1").is_none());
+        for nothing in ["-bm 1", ".", "-s 2 2 2 .", "textures/", "C:\\textures\\"] {
+            assert!(Map::parse(nothing).is_none(), "{nothing}");
+        }
     }
 
     #[test]

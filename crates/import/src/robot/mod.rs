@@ -6,7 +6,7 @@
 //! | `visual` | a part: mesh files (glTF, OBJ, STL, COLLADA, PLY, USD, FBX) with their `scale`, boxes, cylinders, spheres, capsules, planes of SDF |
 //! | mesh files | beside the file, or by `package://`, `model://` and `file://` in the folders above; in their own unit, and in their own axes taken as they are, as RViz does. One that is missing is an error, unless [`ImportOptions::allow_missing_meshes`](crate::ImportOptions::allow_missing_meshes) is set |
 //! | materials | colours (sRGB) and pictures of URDF; `diffuse`, `emissive` and the maps of `pbr` in SDF. A mesh with materials of its own keeps them |
-//! | `world`, `model` and `include` of SDF | models within models; includes are looked for as mesh files are, as `model.sdf` |
+//! | `world`, `model` and `include` of SDF | models within models; includes are looked for as mesh files are, as `model.sdf`. Where a world has a `state`, models, links and lights stand as the first one says, which Gazebo restores when it loads the world |
 //! | `light` of SDF | point, spot and directional; SDF states no unit: strengths are W/sr and W/m², by `intensity` |
 //! | joints of URDF | bodies that move, with axis and limits: `revolute`, `continuous`, `prismatic`, `floating`; `mimic` is followed by [`ImportOptions::states`](crate::ImportOptions::states) |
 //! | joints of SDF | the same: `revolute`, `continuous`, `prismatic`, `ball`; `fixed` ones hold together. Axes by `expressed_in`, poses by `relative_to`. Of joints that close a circle one is left out with a warning, and so are screws, gears and universal joints |

@@ -11,6 +11,7 @@ use crate::vectors::numbers;
 use enfilade_math::{DAffine3, DVec3, Rgb, linear_from_srgb};
 use enfilade_scene::{Light, ObjectId, SpotFalloff};
 use roxmltree::{Document, Node};
+use std::collections::HashMap;
 
 /// Models within models, and includes within includes, deeper than this are taken for a cycle.
 const MAX_DEPTH: usize = 16;
@@ -21,20 +22,47 @@ const PLANE: f64 = 1.0;
 
 /// Places the contents of the worlds or models of a file.
 pub(super) fn place(root: Node, shapes: &mut Shapes, a: &mut Assembly) -> Result<(), ImportError> {
-    let mut placer = Placer { shapes, models: 0, joints: Joints::default() };
     let worlds: Vec<Node> = children(root, "world").collect();
     if worlds.len() > 1 {
         a.warn("world", format!("{} worlds, of which the first was imported", worlds.len()));
     }
     let scope = worlds.first().copied().unwrap_or(root);
+    let mut placer = Placer { shapes, models: 0, joints: Joints::default(), state: state_of(scope, a) };
     placer.content(scope, &Place { path: String::new(), file_from_here: DAffine3::IDENTITY, object: None, depth: 0 }, a)?;
     placer.joints.add(a)
+}
+
+/// The placements in the first `state` of a world, by the paths of models, links and lights: Gazebo saves there where everything stands,
+/// and puts it there again when it loads the world.
+fn state_of(world: Node, a: &mut Assembly) -> HashMap<String, DAffine3> {
+    fn add(scope: Node, path: &str, depth: usize, found: &mut HashMap<String, DAffine3>, a: &mut Assembly) {
+        for tag in ["model", "link", "light"] {
+            for element in children(scope, tag) {
+                let own = format!("{path}{}", name_of(element));
+                if child(element, "pose").is_some() {
+                    let pose = own_pose(element, a);
+                    found.insert(format!("{tag} {own}"), pose);
+                }
+                if depth < MAX_DEPTH {
+                    add(element, &format!("{own}::"), depth + 1, found, a);
+                }
+            }
+        }
+    }
+    let mut found = HashMap::new();
+    children(world, "state").take(1).for_each(|state| add(state, "", 0, &mut found, a));
+    if !found.is_empty() {
+        a.warn("state", "models, links and lights stand where the world's state has them, as in Gazebo");
+    }
+    found
 }
 
 struct Placer<'s> {
     shapes: &'s mut Shapes,
     models: usize,
     joints: Joints,
+    /// Placements in the world that replace those of models (`model table`), links (`link table::top`) and lights.
+    state: HashMap<String, DAffine3>,
 }
 
 /// A world or model.
@@ -64,7 +92,10 @@ impl Placer<'_> {
                     self.model(element, name, file_from_here, here, a)?;
                 }
                 "include" => self.include(element, scope, here, a)?,
-                "light" => light(element, here.file_from_here * pose_in(scope, element, a)?, a),
+                "light" => {
+                    let placed = here.file_from_here * pose_in(scope, element, a)?;
+                    light(element, self.stated("light", &here.path, name_of(element)).unwrap_or(placed), a);
+                }
                 _ => (),
             }
         }
@@ -74,6 +105,7 @@ impl Placer<'_> {
     /// Adds a model, which stands within `around`.
     fn model(&mut self, model: Node, name: &str, file_from_here: DAffine3, around: &Place, a: &mut Assembly) -> Result<(), ImportError> {
         let object = a.push_object(name, around.object);
+        let file_from_here = self.stated("model", &around.path, name).unwrap_or(file_from_here);
         let path = format!("{}{name}::", around.path);
         let here = Place { path, file_from_here, object: Some(object), depth: around.depth + 1 };
         self.links(model, &here, object, a)?;
@@ -81,11 +113,17 @@ impl Placer<'_> {
         self.joints.of_model(model, &here.path, file_from_here, a)
     }
 
+    /// Where the world's state has something.
+    fn stated(&self, tag: &str, path: &str, name: &str) -> Option<DAffine3> {
+        self.state.get(&format!("{tag} {path}{name}")).copied()
+    }
+
     fn links(&mut self, model: Node, here: &Place, object: ObjectId, a: &mut Assembly) -> Result<(), ImportError> {
         for link in children(model, "link") {
             let name = if name_of(link).is_empty() { "link" } else { name_of(link) };
             let own = a.push_object(name, Some(object));
-            let file_from_link = here.file_from_here * pose_in(model, link, a)?;
+            let placed = here.file_from_here * pose_in(model, link, a)?;
+            let file_from_link = self.stated("link", &here.path, name).unwrap_or(placed);
             let before = a.contents();
             for element in children(link, "light") {
                 light(element, within(element, model, here, file_from_link, a)?, a);

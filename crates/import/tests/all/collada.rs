@@ -89,6 +89,7 @@ fn units_and_axes_are_those_of_the_asset() {
         ("<unit meter=\"0.01\"/><up_axis>Y_UP</up_axis>", [1.0, 0.0, 1.5]),
         ("<unit name=\"inch\" meter=\"0.0254\"/><up_axis>Z_UP</up_axis>", [2.54, 3.81, 0.0]),
         ("<unit meter=\"0,01\"/><up_axis>X_UP</up_axis>", [-1.5, 0.0, 1.0]),
+        ("<unit meter=\"0.01\"/><up_axis> z_up\n</up_axis>", [1.0, 1.5, 0.0]),
         ("<created/>", [100.0, 0.0, 150.0]),
     ] {
         let found = points(&load(&file(asset, &front, NODE)), "Front");

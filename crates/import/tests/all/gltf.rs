@@ -220,6 +220,11 @@ fn lights_and_cameras_are_placed_and_scaled() {
     assert!(((0.5 * camera.fov_x_rad).tan() - 2.0 * 0.45f64.tan()).abs() < 1e-6);
     assert_eq!(camera.world_from_camera.y_axis, DVec3::Z);
     assert!(warnings(&imported).contains("not perspective"));
+    // Radians end below π; 45 of them would be 58 degrees.
+    g.json["cameras"][0]["perspective"]["yfov"] = json!(45);
+    let imported = folder.write("a.gltf", g.text()).load_with("a.gltf", &options).unwrap();
+    assert!(((0.5 * imported.scene.cameras[0].fov_x_rad).tan() - 2.0 * 22.5f64.to_radians().tan()).abs() < 1e-6);
+    assert!(warnings(&imported).contains("found 45 as yfov, expected radians below 3.14; degrees were taken"));
 }
 
 #[test]

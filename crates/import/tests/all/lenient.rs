@@ -89,6 +89,20 @@ fn gltf_takes_counts_and_indices_with_a_point() {
     json["nodes"][0]["name"] = json!("NaN \\\" NaN");
     let text = json.to_string().replace("\"§\"", "NaN");
     assert_eq!(folder.write("n.gltf", text).load("n.gltf").unwrap().scene.parts[0].name, "NaN \\\" NaN");
+    // Text in place of numbers, and colours with or without alpha; three.js and pygltflib show the same.
+    json["nodes"][0]["translation"] = json!(["1", "2.5", "-3"]);
+    json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([0.25, "0.5", 1.0]);
+    json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = json!("0.75");
+    json["materials"][0]["doubleSided"] = json!("true");
+    json["materials"][0]["name"] = json!("7");
+    json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": "10", "color": [1, 1, 0.5, 1]}]}});
+    let texts = folder.write("t.gltf", json.to_string()).load("t.gltf").unwrap_or_else(|e| panic!("{e}"));
+    json["nodes"][0]["translation"] = json!([1, 2.5, -3]);
+    json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([0.25, 0.5, 1, 1]);
+    json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = json!(0.75);
+    json["materials"][0]["doubleSided"] = json!(true);
+    json["extensions"]["KHR_lights_punctual"]["lights"][0] = json!({"type": "point", "intensity": 10, "color": [1, 1, 0.5]});
+    assert_eq!(texts.scene, folder.write("u.gltf", json.to_string()).load("u.gltf").unwrap().scene);
     json["accessors"][0]["count"] = json!(2.5);
     let error = folder.write("d.gltf", json.to_string()).error("d.gltf");
     assert!(error.contains("not valid glTF JSON") && error.contains("2.5"), "{error}");

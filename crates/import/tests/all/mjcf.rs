@@ -357,6 +357,9 @@ fn joints_of_urdf_are_bodies_that_follow_a_table() {
     assert!(rest.scene.is_still() && warnings(&rest).contains("it has no limits"));
 
     let scene = with_states(&folder, "a.urdf", "run.csv").unwrap().scene;
+    // As spreadsheets of countries with decimal commas write it.
+    folder.write("comma.csv", "\u{feff}time;hinge\r\n0,0;0\r\n2,0;1,5707963267948966\r\n");
+    assert_eq!(with_states(&folder, "a.urdf", "comma.csv").unwrap().scene, scene);
     let end = scene.at(2.0);
     assert_box(&end, "door", [-0.05, 1.0, -0.5, 0.05, 2.0, 0.5]);
     assert_box(&end, "knob", [-0.05, 1.95, -0.05, 0.05, 2.05, 0.05]);

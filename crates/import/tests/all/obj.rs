@@ -245,6 +245,9 @@ fn what_is_not_read_of_a_material_is_reported() {
         ("d -halo 0.3", "d -halo, which depends on the direction"),
         ("map_opacity oak.png", "map_opacity ignored"),
         ("map_Kd", "map_kd ignored: it names no picture"),
+        ("map_Kd .", "map_kd ignored: it names no picture"),
+        ("map_Kd textures\\", "map_kd ignored: it names no picture"),
+        ("Kd 200 100 50", "kd: found \"200 100 50\", expected 0 to 1"),
         ("map_Kd -imfchan r -mm 0.5 1 oak.png", "map_kd: options -mm, -imfchan ignored"),
         ("Ke 0 0 0\nmap_Ke oak.png", "beside a black Ke"),
     ] {

@@ -329,3 +329,42 @@ fn each_place_of_an_instanced_mesh_is_an_object_and_an_instance() {
     assert_told(&imported.scene, &[("chair", 0, "chair"), ("chair_2", 1, "chair")]);
     assert_labels(&imported, &[("chair", 5, 1), ("chair_2", 5, 2)]);
 }
+
+#[test]
+fn extras_of_a_mesh_label_the_nodes_that_show_it_and_nothing_below_them() {
+    // Blender's exporter writes custom properties of an object to the node, those of its mesh to the mesh.
+    let mut g = Gltf::triangle();
+    g.json["meshes"][0]["extras"] = json!({"semantic": "chair"});
+    let plain = g.json["meshes"][0]["primitives"].clone();
+    g.json["meshes"].as_array_mut().unwrap().push(json!({"primitives": plain}));
+    g.json["nodes"] = json!([
+        {"name": "c1", "mesh": 0, "children": [3]},
+        {"name": "c2", "mesh": 0},
+        {"name": "sofa", "mesh": 0, "extras": {"semantic": "sofa"}},
+        {"name": "cushion", "mesh": 1},
+        {"name": "numbered", "mesh": 0, "extras": {"instance": 7}}
+    ]);
+    g.json["scenes"] = json!([{"nodes": [0, 1, 2, 4]}]);
+    let imported = Folder::new().write("a.gltf", g.text()).load("a.gltf").unwrap();
+    assert_labels(&imported, &[("c1", 5, 1), ("cushion", -1, -1), ("c2", 5, 2), ("sofa", 6, 3), ("numbered", 5, 7)]);
+    g.json["meshes"][0]["extras"] = json!({"semantic_id": 99});
+    let told = warnings(&Folder::new().write("a.gltf", g.text()).load("a.gltf").unwrap());
+    assert!(told.contains("meshes[0].extras.semantic_id: found 99, expected a NYU40 id"), "{told}");
+}
+
+#[test]
+fn geoms_of_the_world_are_objects_and_those_of_a_body_are_one() {
+    let chair = |name: &str, x: f64| format!("<geom name=\"{name}\" type=\"box\" size=\".2 .2 .4\" pos=\"{x} 0 .4\"/>");
+    let text = format!(
+        "<mujoco model=\"room\"><worldbody>{}{}<body name=\"table\" pos=\"0 3 0\">{}{}</body></worldbody></mujoco>",
+        chair("chair_1", 1.0),
+        chair("chair_2", 2.0),
+        chair("top", 0.0),
+        chair("leg", 0.1),
+    );
+    let imported = Folder::new().write("a.xml", text).load("a.xml").unwrap_or_else(|e| panic!("{e}"));
+    assert_told(
+        &imported.scene,
+        &[("chair_1", 0, "room > chair_1"), ("chair_2", 1, "room > chair_2"), ("top", 2, "room > table"), ("leg", 2, "room > table")],
+    );
+}

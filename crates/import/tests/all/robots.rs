@@ -190,3 +190,59 @@ fn semantics_of_partnet_name_the_links_and_meta_the_class_of_the_whole() {
             .contains("semantics.txt: line 1: found \"link_0 door\", expected a link")
     );
 }
+
+/// A box of a metre.
+fn cube(name: &str) -> String {
+    format!("<link name=\"{name}\"><visual><geometry><box size=\"1 1 1\"/></geometry></visual></link>")
+}
+
+#[test]
+fn joints_of_unknown_parents_hold_what_they_hold_in_the_world() {
+    let joint = |name: &str, parent: &str, child: &str, xyz: &str| {
+        format!("<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{xyz}\"/></joint>")
+    };
+    // `world` is often meant without being a link; comments and prefixes are as ROS (TinyXML-2) reads them.
+    let text = format!(
+        "<robot name=\"r\"><!-- ---- -->{}{}{}<gazebo:plugin/>{}{}{}</robot>",
+        cube("a"),
+        cube("b"),
+        cube("c"),
+        joint("j", "world", "a", "0 0 5"),
+        joint("k", "a", "b", "0 2 0"),
+        joint("l", "gone", "c", "7 0 0")
+    );
+    let imported = Folder::new().write("a.urdf", text).load("a.urdf").unwrap_or_else(|e| panic!("{e}"));
+    assert_bounds(&imported, "a", [-0.5, -0.5, 4.5], [0.5, 0.5, 5.5]);
+    assert_bounds(&imported, "b", [-0.5, 1.5, 4.5], [0.5, 2.5, 5.5]);
+    assert_bounds(&imported, "c", [6.5, -0.5, -0.5], [7.5, 0.5, 0.5]);
+    let told = warnings(&imported);
+    assert!(told.contains("joint \"l\": its parent \"gone\" is no link of the file; \"c\" hangs on the world"), "{told}");
+    assert!(!told.contains("\"world\""), "{told}");
+}
+
+#[test]
+fn worlds_stand_as_their_first_state_has_them() {
+    // Gazebo loads the world and then sets its first state (World::Load): poses of models, and of links, are those in the world.
+    let model = |name: &str, link: &str, pose: &str| {
+        let visual = "<visual name=\"v\"><geometry><box><size>1 1 1</size></box></geometry></visual>";
+        format!("<model name=\"{name}\"><pose>{pose}</pose><link name=\"{link}\"><pose>0 0 1 0 0 0</pose>{visual}</link></model>")
+    };
+    let state = |name: &str, x: f64, link: &str| format!("<model name=\"{name}\"><pose>{x} 5 0 0 0 0</pose>{link}</model>");
+    let text = format!(
+        "<sdf version=\"1.6\"><world name=\"w\">{}{}{}<light name=\"l\" type=\"point\"><pose>0 0 2 0 0 0</pose></light>\
+         <state world_name=\"w\"><sim_time>9 0</sim_time>{}{}<light name=\"l\"><pose>0 0 3 0 0 0</pose></light></state>\
+         <state world_name=\"w\">{}</state></world></sdf>",
+        model("kept", "p", "1 0 0 0 0 0"),
+        model("moved", "q", "1 0 0 0 0 0"),
+        model("lifted", "r", "1 0 0 0 0 0"),
+        state("moved", 4.0, ""),
+        state("lifted", 8.0, "<link name=\"r\"><pose>8 5 3 0 0 0</pose></link>"),
+        state("kept", 99.0, ""),
+    );
+    let imported = Folder::new().write("a.world", text).load("a.world").unwrap_or_else(|e| panic!("{e}"));
+    assert_bounds(&imported, "kept.p", [0.5, -0.5, 0.5], [1.5, 0.5, 1.5]);
+    assert_bounds(&imported, "moved.q", [3.5, 4.5, 0.5], [4.5, 5.5, 1.5]);
+    assert_bounds(&imported, "lifted.r", [7.5, 4.5, 2.5], [8.5, 5.5, 3.5]);
+    assert!(matches!(&imported.scene.lights[0], Light::Point { position, .. } if *position == Vec3::new(0.0, 0.0, 3.0)));
+    assert!(warnings(&imported).contains("stand where the world's state has them"));
+}

@@ -213,6 +213,35 @@ fn rooms_without_names_are_suspected_by_what_things_rest_on() {
     assert_eq!(plain("room.obj", &nameless(&[&ROOM[..6], &floating].concat(), y_up)), [""; 0]);
     // Nothing is in it, so nothing shows which way is up.
     assert_eq!(plain("room.obj", &nameless(&ROOM[..6], |p| p)), [""; 0]);
+    // glTF has y up by its rules; what writes z up there does not say so.
+    let told = of_gltf(&nameless(&room, |p| p));
+    assert!(told.len() == 1 && told[0].contains("up_axis = \"z\" (or --up-axis z)"), "{told:?}");
+    assert_eq!(of_gltf(&nameless(&room, y_up)), [""; 0]);
+    assert_eq!(of_gltf(&nameless(&ROOM[..6], |p| p)), [""; 0]);
+    assert_eq!(of_gltf(&nameless(&[&ROOM[..6], &pictures].concat(), y_up)), [""; 0]);
+}
+
+/// The suspicions about the shapes of an OBJ file as glTF, which has them as they are.
+fn of_gltf(obj: &str) -> Vec<String> {
+    let row = |line: &str, mark: &str| line.strip_prefix(mark).map(|rest| rest.split(' ').map(str::to_string).collect::<Vec<_>>());
+    let vertices: Vec<[f32; 3]> =
+        obj.lines().filter_map(|line| row(line, "v ")).map(|v| [0, 1, 2].map(|axis| v[axis].parse().unwrap())).collect();
+    let faces = obj.lines().filter_map(|line| row(line, "f "));
+    let corners = faces.flat_map(|face| [0, 1, 2, 0, 2, 3].map(|i| vertices[face[i].parse::<usize>().unwrap() - 1]));
+    let bytes: Vec<u8> = corners.flatten().flat_map(f32::to_le_bytes).collect();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.bin"), &bytes).unwrap();
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": {}}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": {length}}}], "buffers": [{{"uri": "a.bin", "byteLength": {length}}}]}}"#,
+        bytes.len() / 12,
+        length = bytes.len()
+    );
+    let file = folder.path().join("room.gltf");
+    std::fs::write(&file, text).unwrap();
+    of(&FileSource::of(file.to_string_lossy()))
 }
 
 #[test]

@@ -162,17 +162,20 @@ impl Track<'_> {
     }
 }
 
-/// The columns of a table in CSV, by the names in its first row.
+/// The columns of a table in CSV, by the names in its first row. Where semicolons or tabs separate them, numbers may have decimal commas.
 fn columns(bytes: &[u8]) -> Result<BTreeMap<String, Array>, (String, String)> {
     let text = enfilade_scene::decoded_text(bytes);
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let head = text.lines().next().unwrap_or_default();
+    let delimiter = [b',', b';', b'\t'].into_iter().find(|mark| head.contains(char::from(*mark))).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).delimiter(delimiter).from_reader(text.as_bytes());
     let malformed = |error: csv::Error| ("table".to_string(), error.to_string());
     let names: Vec<String> = reader.headers().map_err(malformed)?.iter().map(str::to_string).collect();
     let mut columns = vec![Vec::new(); names.len()];
     for (row, record) in reader.records().enumerate() {
         for ((column, value), name) in columns.iter_mut().zip(&record.map_err(malformed)?).zip(&names) {
             let problem = || (format!("column {name:?}"), format!("row {} has {value:?}, expected a number", row + 2));
-            column.push(value.parse::<f64>().map_err(|_| problem())?);
+            let decimal = if delimiter == b',' { value.to_string() } else { value.replacen(',', ".", 1) };
+            column.push(decimal.parse::<f64>().map_err(|_| problem())?);
         }
     }
     let array = |values: Vec<f64>| Array { shape: vec![values.len()], values: Values::Numbers(values) };

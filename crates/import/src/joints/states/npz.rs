@@ -62,9 +62,7 @@ fn array(bytes: &[u8]) -> Result<Array, String> {
     let axes: Option<Vec<usize>> = shape.split(',').map(str::trim).filter(|axis| !axis.is_empty()).map(|axis| axis.parse().ok()).collect();
     let axes = axes.ok_or_else(damaged)?;
     let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(*axis)).ok_or_else(damaged)?;
-    if after("'fortran_order':").is_some_and(|rest| rest.starts_with("True")) && axes.len() > 1 {
-        return Err("it is in Fortran's order; save it with numpy.ascontiguousarray".into());
-    }
+    let by_columns = after("'fortran_order':").is_some_and(|rest| rest.starts_with("True")) && axes.len() > 1;
     let values =
         values(kind, data).ok_or_else(|| format!("found elements of the type {kind:?}, expected numbers or texts; save it as float64"))?;
     let found = match &values {
@@ -72,10 +70,29 @@ fn array(bytes: &[u8]) -> Result<Array, String> {
         Values::Texts(texts) => texts.len(),
     };
     if found == count {
+        let values = match values {
+            Values::Numbers(numbers) if by_columns => Values::Numbers(by_rows(numbers, &axes)),
+            Values::Texts(texts) if by_columns => Values::Texts(by_rows(texts, &axes)),
+            values => values,
+        };
         Ok(Array { shape: axes, values })
     } else {
         Err(format!("{found} elements for a shape of ({shape}); it is cut short, save it again"))
     }
+}
+
+/// The elements of an array whose first axis changes fastest (a transposed array of numpy, Fortran's order), with the last one fastest.
+fn by_rows<T: Clone>(values: Vec<T>, axes: &[usize]) -> Vec<T> {
+    let place = |index: usize| {
+        let (mut rest, mut stride, mut place) = (index, values.len(), 0);
+        for &axis in axes.iter().rev() {
+            stride /= axis;
+            place += rest % axis * stride;
+            rest /= axis;
+        }
+        place
+    };
+    (0..values.len()).map(|index| values[place(index)].clone()).collect()
 }
 
 /// The elements of a type such as `<f8`; `None` of types that are neither numbers nor texts.
@@ -103,4 +120,27 @@ fn values(kind: &str, data: &[u8]) -> Option<Values> {
             _ => return None,
         },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn transposed_arrays_are_those_that_numpy_shows() {
+        // numpy.array([[1, 2, 3], [4, 5, 6]]) and the same by way of a transposed array: its elements are stored by columns.
+        let stored = |order: &str, numbers: [f64; 6]| {
+            let header = format!("{:<117}\n", format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': (1, 2, 3), }}"));
+            let data: Vec<u8> = numbers.into_iter().flat_map(f64::to_le_bytes).collect();
+            array(&[&MAGIC[..], &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes(), &data[..]].concat()).unwrap()
+        };
+        let numbers = |array: Array| match array.values {
+            Values::Numbers(numbers) => (array.shape, numbers),
+            Values::Texts(_) => panic!("no numbers"),
+        };
+        let rows = (vec![1, 2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(numbers(stored("False", [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])), rows);
+        assert_eq!(numbers(stored("True", [1.0, 4.0, 2.0, 5.0, 3.0, 6.0])), rows);
+        assert_eq!(by_rows(Vec::<f64>::new(), &[0, 3]), [0.0; 0]);
+    }
 }

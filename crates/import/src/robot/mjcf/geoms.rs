@@ -80,7 +80,10 @@ impl Walk<'_> {
         let Some(mesh) = pushed else { return Ok(()) };
         let half = form.half();
         let material = self.shades.push(shade, [half.x, half.y], own_uvs, a);
-        a.push_part_of(at.object, &part_name(geom, form, at), mesh, material, file_from_geom * placement, PartLabel::NONE);
+        let name = part_name(geom, form, at);
+        // What stands in the world itself is no part of one thing: each geom there is a thing.
+        let object = if at.link == 0 { a.push_object(&name, Some(at.object)) } else { at.object };
+        a.push_part_of(object, &name, mesh, material, file_from_geom * placement, PartLabel::NONE);
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 //! | feature | what becomes of it |
 //! |---|---|
 //! | `include`, `compiler`, `default` | followed: angles, folders, `eulerseq`, `autolimits`, classes with `childclass`. Global coordinates are refused |
-//! | bodies | each an object within the one that it is in; `frame` and `replicate` are followed; `attach` is refused |
+//! | bodies | each an object within the one that it is in, as is each geom of the world itself; `frame` and `replicate` are followed; `attach` is refused |
 //! | geoms | a part each, called after the geom, else after its body and mesh: planes, boxes, spheres, ellipsoids, capsules, cylinders, meshes (OBJ, STL, MSH), smooth across edges of less than 37° where the file has no normals. Groups 0 to 2 as in MuJoCo's viewer, or those of [`ImportOptions::geom_groups`](crate::ImportOptions::geom_groups). Planes without an end are cut at 10 m. Height fields and signed distances are left out with a warning |
 //! | materials | colours (sRGB), textures (2d: by the mesh's coordinates, else from above; cube: on the six sides of the box around the thing), built-in checkers, gradients and edges; `specular`, `shininess` (GGX of Phong's exponent 128 × shininess), `metallic`, `roughness`, `emission` (radiance of the colour), `reflectance` (a clear coat) |
 //! | joints | bodies that move: hinges, slides, balls and free ones, with limits; several joints of one body are a chain. Without states all is at rest (`qpos0`) |

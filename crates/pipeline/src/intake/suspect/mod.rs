@@ -19,7 +19,7 @@ use crate::config::FileSource;
 use enfilade_import::{Imported, UpAxis};
 use enfilade_math::DVec3;
 use names::Named;
-use upright::{Lying, Witness};
+use upright::{Lying, Stated, Witness};
 
 /// Formats whose files state which way is up.
 const STATE_UP: [&str; 11] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "mjcf", "zip", "vray", "sweethome", "collection"];
@@ -41,8 +41,12 @@ pub(super) fn judge(source: &FileSource, imported: &Imported, look: &Look) -> Su
     }
     let (scene, format) = (&imported.scene, imported.report.format);
     let named = Named::of(source, imported);
-    let says_itself = STATE_UP.contains(&format) || source.up_axis.is_some();
-    let lying = upright::suspected(scene, look, &named, imported.axes, says_itself);
+    let stated = match (STATE_UP.contains(&format) || source.up_axis.is_some(), format) {
+        (true, "gltf") if source.up_axis.is_none() => Stated::ByRule,
+        (true, _) => Stated::ByFile,
+        (false, _) => Stated::Nowhere,
+    };
+    let lying = upright::suspected(scene, look, &named, imported.axes, stated);
     // Heights are along what is up in truth.
     let up = lying.as_ref().map_or(DVec3::Z, |lying| lying.up);
     let sizes = units::judge(scene, look, &named, up);

@@ -44,9 +44,19 @@ pub(super) enum Witness {
     Surfaces,
 }
 
-/// The upward direction where it is not z by all that is known; `axes` turn the file's to the world's, and `says_itself` is true of files that
-/// state which way is up.
-pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, says_itself: bool) -> Option<Lying> {
+/// Where it is stated which way is up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stated {
+    /// Nowhere.
+    Nowhere,
+    /// In the rules of the format alone, which programs that write it break: libraries of Python write scenes with z up as glTF as they are.
+    ByRule,
+    /// In the file, or by a key.
+    ByFile,
+}
+
+/// The upward direction where it is not z by all that is known; `axes` turn the file's to the world's.
+pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, stated: Stated) -> Option<Lying> {
     let cameras = of_cameras(scene);
     let lying = |up: DVec3, witnesses: &[Witness]| (up != DVec3::Z).then(|| Lying { up, witnesses: witnesses.to_vec() });
     match (of_names(look, named), cameras) {
@@ -55,10 +65,13 @@ pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, 
         (Some((_, false)), Some(DVec3::Z)) => None,
         (Some((up, _)), _) => lying(up, &[Witness::Names]),
         (None, Some(seen)) => lying(seen, &[Witness::Cameras]),
-        (None, None) if says_itself => None,
         (None, None) => {
             let rest = || flat_side(look).and_then(|axis| support::upward(look, axis)).and_then(|up| lying(up, &[Witness::Support]));
-            of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])).or_else(rest)
+            match stated {
+                Stated::ByFile => None,
+                Stated::ByRule => rest(),
+                Stated::Nowhere => of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])).or_else(rest),
+            }
         }
     }
 }
