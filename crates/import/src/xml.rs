@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn what_other_readers_take_becomes_well_formed_on_the_same_lines() {
-        // MuJoCo 4.0 (TinyXML-2) reads each of these.
+        // The XML parser of MuJoCo 4.0 (TinyXML-2) takes each of these.
         let text = "<?xml version=\"1.0\"?>\n<!-- -- a -- b --->\n<a t=\"x & y &amp; z&#65;\">\n<p:c q:d='1 > 0 & 2'/><!---->\n\
                     b & c<![CDATA[ & -- <r:d> ]]>\n<e f=\"--\"/></a><!-------->";
         let mended = xml_text(text.as_bytes());

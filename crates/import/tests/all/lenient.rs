@@ -89,7 +89,7 @@ fn gltf_takes_counts_and_indices_with_a_point() {
     json["nodes"][0]["name"] = json!("NaN \\\" NaN");
     let text = json.to_string().replace("\"§\"", "NaN");
     assert_eq!(folder.write("n.gltf", text).load("n.gltf").unwrap().scene.parts[0].name, "NaN \\\" NaN");
-    // Text in place of numbers, and colours with or without alpha; three.js and pygltflib show the same.
+    // Text in place of numbers, and colours with or without alpha: the same scene as with numbers and with four channels.
     json["nodes"][0]["translation"] = json!(["1", "2.5", "-3"]);
     json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([0.25, "0.5", 1.0]);
     json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = json!("0.75");
