@@ -54,8 +54,13 @@ pub fn disk(radius: f32, n: usize) -> Mesh {
     lathe(&[Vec2::new(radius, 0.0), Vec2::ZERO], n)
 }
 
-/// A smooth curve through `points` (Catmull–Rom), `steps` pieces between neighbours. Radii of a profile never go negative.
+/// A smooth profile through `points`, as [`curve`] makes it; its radii never go negative.
 pub fn spline(points: &[[f32; 2]], steps: usize) -> Vec<Vec2> {
+    curve(points, steps).into_iter().map(|p| Vec2::new(p.x.max(0.0), p.y)).collect()
+}
+
+/// A smooth curve through `points` (Catmull–Rom), `steps` pieces between neighbours.
+pub fn curve(points: &[[f32; 2]], steps: usize) -> Vec<Vec2> {
     let p = |i: isize| Vec2::from_array(points[i.clamp(0, points.len() as isize - 1) as usize]);
     let mut curve = Vec::with_capacity((points.len() - 1) * steps + 1);
     for i in 0..points.len() as isize - 1 {
@@ -63,7 +68,7 @@ pub fn spline(points: &[[f32; 2]], steps: usize) -> Vec<Vec2> {
         for k in 0..steps {
             let t = k as f32 / steps as f32;
             let q = 0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * t * t + (3.0 * b - a - 3.0 * c + d) * t * t * t);
-            curve.push(Vec2::new(q.x.max(0.0), q.y));
+            curve.push(q);
         }
     }
     curve.push(p(points.len() as isize - 1));

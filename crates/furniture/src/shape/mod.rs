@@ -15,7 +15,7 @@ pub use boxes::{bendable_box, bevelled_box, padded_box, rounded_box};
 pub use cloth::{curtain, leaf, pillow};
 pub use edit::Reshape;
 pub use frame::{Top, picture_frame, slab_below, slab_with_openings};
-pub use lathe::{disk, lathe, sphere, spline};
+pub use lathe::{curve, disk, lathe, sphere, spline};
 pub use tube::{rounded_loop, tube};
 
 use enfilade_geometry::Mesh;

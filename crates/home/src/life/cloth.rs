@@ -28,6 +28,8 @@ const SPARE: f32 = 0.25;
 const EDGE: f32 = 0.05;
 /// Cloth lower than this lies on the floor, metres.
 const LOW: f32 = 0.1;
+/// Greatest height from which cloth falls to the floor, metres: a fall ends after about 1.1 m, and folds take time.
+const HIGH: f32 = 0.6;
 
 /// Lets a piece of cloth fall where its row says, if there is a place.
 pub fn throw(stage: &mut Stage, floors: &mut [Floor], wish: &Wish, bundle: Bundle, sort: Textiles) {
@@ -125,8 +127,11 @@ fn held_over(stage: &mut Stage, floor: &Floor, wish: &Wish, textile: Textile, rn
         return None;
     }
     let top = stage.bodies.iter().filter(|body| overlap(&body.bounds, &column, 0.0)).filter_map(|body| highest(body, &column));
-    let height = top.fold(0.0f32, f32::max) + ABOVE - bounds.min.z;
-    let lift = Vec3::Z * height;
+    let height = top.fold(0.0f32, f32::max) + ABOVE;
+    if on_floor(wish.row.at) && height > HIGH {
+        return None;
+    }
+    let lift = Vec3::Z * (height - bounds.min.z);
     sheet.points.iter_mut().for_each(|p| *p += lift);
     let inside = sheet.points.iter().zip(&sheet.here).all(|(p, here)| !here || room.contains(p.truncate(), -0.015));
     inside.then_some(sheet)

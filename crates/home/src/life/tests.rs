@@ -1,9 +1,13 @@
 //! What life does to homes.
 
 use super::*;
+use crate::check::bodies::bodies_of;
 use crate::check::faults;
+use crate::gravity::height_between;
 use crate::{Building, HomeConfig, RoomKind, States, home};
 use enfilade_furniture::JointKind;
+use enfilade_furniture::meet::{Body, Triangle, overlap};
+use enfilade_math::Vec3;
 use enfilade_scene::to_bytes;
 use std::collections::BTreeSet;
 
@@ -85,4 +89,26 @@ fn life_is_a_function_of_the_seed_and_is_drawn_apart_from_the_plan() {
     assert_eq!(fingerprint(&first), fingerprint(&again));
     let other = home(&HomeConfig { materials: Some(9), ..config(0.7) });
     assert_eq!(places(&first), places(&other));
+}
+
+#[test]
+fn no_cloth_ends_its_fall_in_the_air() {
+    let rooms = vec![RoomKind::Bedroom, RoomKind::Children];
+    for seed in 0..6 {
+        let home = home(&HomeConfig { rooms: rooms.clone(), lived_in: 1.0, ..HomeConfig::of_seed(seed) });
+        let is_of = |name: &str, part: &str| home.scene.parts.iter().any(|other| other.name == format!("{name}/{part}"));
+        let bodies = bodies_of(&home.scene);
+        let is_thrown = |body: &&Body| {
+            let name = body.name.as_str();
+            matches!(family_of(name), "clothes" | "towel") && is_of(name, "cloth") && !is_of(name, "hook") && !is_of(name, "loop")
+        };
+        for cloth in bodies.iter().filter(is_thrown) {
+            let window = Bounds3 { min: cloth.bounds.min - 0.03 * Vec3::Z, ..cloth.bounds };
+            let near = bodies.iter().filter(|body| body.name != cloth.name && overlap(&body.bounds, &window, 0.0));
+            let below: Vec<Triangle> = near.flat_map(|body| body.within(&window)).copied().collect();
+            // Some of its triangles are enough to tell.
+            let above: Vec<Triangle> = cloth.parts().flatten().step_by(5).copied().collect();
+            assert!(height_between(&above, &below, 0.03).is_some(), "seed {seed}: {} in {:?}", cloth.name, cloth.bounds);
+        }
+    }
 }

@@ -80,7 +80,7 @@ impl BentwoodChair {
 
 /// A smooth curve through points, in steps of a fifth.
 fn smooth(points: &[[f32; 2]]) -> Vec<Vec2> {
-    crate::shape::spline(points, 5)
+    crate::shape::curve(points, 5)
 }
 
 /// Up from the curve at a point, where it runs from the front to the rear and up.
@@ -145,4 +145,20 @@ fn volume(mesh: &Mesh) -> f32 {
             a.dot(b.cross(c))
         })
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_back_leans_behind_the_middle() {
+        let line = smooth(&LINE);
+        for [y, z] in LINE {
+            assert!(line.iter().any(|p| p.distance(Vec2::new(y, z)) < 1e-6), "{y} {z}");
+        }
+        // It rises all the way, and leans further the higher it is.
+        let back: Vec<&Vec2> = line.iter().skip_while(|p| p.x > -0.16).collect();
+        assert!(back.len() > 8 && back.windows(2).all(|pair| pair[1].x < pair[0].x && pair[1].y > pair[0].y), "{back:?}");
+    }
 }
