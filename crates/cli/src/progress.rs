@@ -91,6 +91,11 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        let mut state = self.lock();
+        if state.running {
+            state.count_the_rest();
+        }
+        drop(state);
         if let Some(bar) = self.lock().bar.take() {
             bar.finish_and_clear();
         }
@@ -134,6 +139,7 @@ impl Progress {
             // The reason is reported once, at the end.
             Event::Failed { .. } => {
                 state.heading(scene);
+                state.count_the_rest();
                 state.end();
                 state.line(&format!("  {name:<8} FAILED"));
             }
@@ -184,11 +190,11 @@ impl State {
         }
     }
 
-    /// Prints how many warnings were not shown.
+    /// Prints how many warnings of the work that is running were not shown.
     fn count_the_rest(&mut self) {
         let more = self.warnings.saturating_sub(WARNINGS_SHOWN);
         if more > 0 {
-            self.line(&format!("  {:<8} … and {more} more warnings", ""));
+            self.line(&format!("  {:<8} … and {more} more warning{}", "", if more == 1 { "" } else { "s" }));
         }
     }
 

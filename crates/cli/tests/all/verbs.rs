@@ -168,3 +168,16 @@ fn a_run_is_forecast_before_it_and_counted_after_it() {
     fail(d, &["stats", "out", "--price", "cheap"], 2, &["is no number", "--price 0.04"]);
     fail(d, &["stats", "out", "--compare", "dataset.toml"], 1, &["dataset.toml"]);
 }
+
+#[test]
+fn warnings_that_are_not_shown_are_counted() {
+    let dir = folder();
+    let d = dir.path();
+    fs::write(d.join("a.mtl"), "newmtl m\nKd 200 1 1\nmap_Kd .\nmap_Ks gone.png\nword 1\nillum x\n").unwrap();
+    fs::write(d.join("a.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\nf 1 2 3\nfoo 1\n").unwrap();
+    let (code, out, err) = run(d, &["import", "a.obj", "--allow-missing-textures"]);
+    assert_eq!(code, 0, "{err}");
+    let told = out.split_once(" warnings)").and_then(|(before, _)| before.rsplit_once('('));
+    let all: usize = told.unwrap_or_else(|| panic!("{out}")).1.parse().unwrap();
+    assert!(all > 4 && err.matches("warning: ").count() == 3 && err.contains(&format!("… and {} more warnings", all - 3)), "{all}\n{err}");
+}
