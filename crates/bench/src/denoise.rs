@@ -8,8 +8,6 @@
 use anyhow::{Context, Result};
 use enfilade_denoise::{DenoiseError, Denoiser, GUIDES, Noisy, denoise};
 use enfilade_frame::{Frame, Layer, Values, f16};
-use enfilade_home::{HomeConfig, home};
-use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
@@ -26,21 +24,15 @@ pub fn run() -> Result<()> {
             }
             "--reference" => reference = arguments.next().context("--reference needs a number")?.parse()?,
             "--size" => {
-                let text = arguments.next().context("--size needs WxH")?;
-                let (width, height) = text.split_once('x').context("--size is WxH")?;
-                size = [width.parse()?, height.parse()?];
+                size = crate::arguments::size(&arguments.next().context("--size needs WxH")?)?;
             }
             _ => scenes.push(argument),
         }
     }
-    if scenes.is_empty() {
-        scenes.push("home".into());
-    }
     let denoiser = Denoiser::built_in();
     println!("{}, {}x{} pixels, references of {reference} samples", denoiser.name(), size[0], size[1]);
-    for name in scenes {
-        let scene =
-            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
+    for scene in crate::arguments::scenes(scenes) {
+        let (name, scene) = scene?;
         println!("\n{name}");
         measure(&scene, size, (&counts, reference), &denoiser)?;
     }
@@ -94,9 +86,7 @@ const WAYS: [Way; 9] = [
     }),
     ("light and residual apart, normals", |frame, denoiser| Ok(parts(frame, denoiser, &white(frame)))),
     ("the same, normals of pixel centres, filtered", |frame, denoiser| {
-        let mut unguided = Frame::new(frame.width, frame.height);
-        frame.iter().filter(|(layer, _)| !GUIDES.contains(layer)).for_each(|(layer, values)| unguided.insert(layer, values.clone()));
-        Ok(picture(&denoise(&unguided, |noisy| denoiser.filter(noisy))?, Layer::Color))
+        Ok(picture(&denoise(&unguided(frame), |noisy| denoiser.filter(noisy))?, Layer::Color))
     }),
     ("the same, normals of the samples", |frame, denoiser| {
         let mut guided = frame.clone();
@@ -113,6 +103,13 @@ const WAYS: [Way; 9] = [
         Ok(written.iter().zip(at_once(frame, denoiser)).map(|(a, b)| 0.5 * (a + b)).collect())
     }),
 ];
+
+/// The frame without the layers that guide denoising, as earlier versions rendered it.
+pub fn unguided(frame: &Frame) -> Frame {
+    let mut unguided = Frame::new(frame.width, frame.height);
+    frame.iter().filter(|(layer, _)| !GUIDES.contains(layer)).for_each(|(layer, values)| unguided.insert(layer, values.clone()));
+    unguided
+}
 
 /// Color denoised at once, guided by reflectance and by the normals of the samples.
 fn at_once(frame: &Frame, denoiser: &Denoiser) -> Vec<f32> {

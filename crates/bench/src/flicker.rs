@@ -5,11 +5,10 @@
 //! luminance of a pixel and b that of the place to which exact flow leads, interpolated in the next frame, over pixels whose point the next
 //! frame shows. What shines changes with the view, too, and so do textures between pixels: denoised pictures of 256 samples tell how much.
 
+use crate::denoise::unguided;
 use anyhow::{Context, Result};
-use enfilade_denoise::{DenoiseError, Denoiser, GUIDES, denoise};
+use enfilade_denoise::{DenoiseError, Denoiser, denoise};
 use enfilade_frame::{Frame, Layer};
-use enfilade_home::{HomeConfig, home};
-use enfilade_import::{ImportOptions, load};
 use enfilade_math::{DMat3, Rgb};
 use enfilade_render::{FlowTo, Guide, RenderConfig, RenderScene, add_extra_layers, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Pose, Quiet, Scene};
@@ -37,20 +36,12 @@ pub fn run() -> Result<()> {
             "--samples" => walk.samples = value()?.parse()?,
             "--frames" => walk.frames = value()?.parse()?,
             "--reference" => walk.reference = value()?.parse()?,
-            "--size" => {
-                let text = value()?;
-                let (width, height) = text.split_once('x').context("--size is WxH")?;
-                walk.size = [width.parse()?, height.parse()?];
-            }
+            "--size" => walk.size = crate::arguments::size(&value()?)?,
             _ => scenes.push(argument),
         }
     }
-    if scenes.is_empty() {
-        scenes.push("home".into());
-    }
-    for name in scenes {
-        let scene =
-            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
+    for scene in crate::arguments::scenes(scenes) {
+        let (name, scene) = scene?;
         println!("{name}");
         measure(&scene, &walk)?;
     }
@@ -63,9 +54,7 @@ type Way = (&'static str, fn(&Frame, &Denoiser) -> Result<Vec<f32>, DenoiseError
 const WAYS: [Way; 3] = [
     ("as rendered", |frame, _| Ok(luminance(frame))),
     ("denoised, guided by normals of pixel centres", |frame, denoiser| {
-        let mut unguided = Frame::new(frame.width, frame.height);
-        frame.iter().filter(|(layer, _)| !GUIDES.contains(layer)).for_each(|(layer, values)| unguided.insert(layer, values.clone()));
-        Ok(luminance(&denoise(&unguided, |noisy| denoiser.filter(noisy))?))
+        Ok(luminance(&denoise(&unguided(frame), |noisy| denoiser.filter(noisy))?))
     }),
     ("denoised: what is written", |frame, denoiser| Ok(luminance(&denoise(frame, |noisy| denoiser.filter(noisy))?))),
 ];

@@ -77,11 +77,7 @@ fn arguments() -> Result<Job> {
     while let Some(word) = words.next() {
         let mut value = || words.next().with_context(|| format!("{word} needs a value"));
         match word.as_str() {
-            "--size" => {
-                let text = value()?;
-                let (width, height) = text.split_once('x').with_context(|| format!("--size {text}: expected WIDTHxHEIGHT"))?;
-                job.size = (width.parse()?, height.parse()?);
-            }
+            "--size" => job.size = crate::arguments::size(&value()?)?.into(),
             "--config" => job.config = serde_json::from_str(&value()?).context("--config should hold fields of RenderConfig as JSON")?,
             "--seeds" => job.seeds = value()?.parse().context("--seeds should be a whole number")?,
             "--denoise" => job.denoise = true,

@@ -7,8 +7,6 @@
 use anyhow::{Context, Result};
 use enfilade_frame::tonemap::ToneMap;
 use enfilade_frame::{Frame, Layer};
-use enfilade_home::{HomeConfig, home};
-use enfilade_import::{ImportOptions, load};
 use enfilade_pipeline::Stopwatch;
 use enfilade_render::{Guide, RenderConfig, RenderScene, render_frame};
 use enfilade_scene::{Camera, CameraView, Intrinsics, Quiet, Scene};
@@ -30,12 +28,8 @@ pub fn run() -> Result<()> {
             _ => scenes.push(argument),
         }
     }
-    if scenes.is_empty() {
-        scenes.push("home".into());
-    }
-    for name in scenes {
-        let scene =
-            if name == "home" { home(&HomeConfig::default()).scene } else { load(name.as_ref(), &ImportOptions::default(), &Quiet)?.scene };
+    for scene in crate::arguments::scenes(scenes) {
+        let (name, scene) = scene?;
         measure(&name, &scene, &config)?;
     }
     Ok(())
