@@ -16,12 +16,15 @@ const PHOTOMETRIC: u16 = 262;
 const FROM_BLACK: u8 = 1;
 const PALETTE: u16 = 3;
 
+/// Width, height, and texels row by row.
+pub(super) type Texels = (u32, u32, Vec<[u8; 4]>);
+
 /// Width, height and texels of the first picture of a file if it has a palette or is grey with alpha, of eight bits a channel or fewer;
 /// `None` of other files.
 ///
 /// # Errors
 /// As [`decode_floats`].
-pub(super) fn decode_others(bytes: &[u8]) -> Result<Option<(u32, u32, Vec<[u8; 4]>)>, String> {
+pub(super) fn decode_others(bytes: &[u8]) -> Result<Option<Texels>, String> {
     let undecodable = |e: TiffError| format!("cannot be decoded ({e})");
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(undecodable)?;
     let mut tag = |tag| decoder.find_tag_unsigned::<u16>(tag).map_err(undecodable);

@@ -132,7 +132,7 @@ mod tests {
         let stored = |order: &str, numbers: [f64; 6]| {
             let header = format!("{:<117}\n", format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': (1, 2, 3), }}"));
             let data: Vec<u8> = numbers.into_iter().flat_map(f64::to_le_bytes).collect();
-            array(&[&MAGIC[..], &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes(), &data[..]].concat()).unwrap()
+            array(&[MAGIC, &[1, 0], &(header.len() as u16).to_le_bytes(), header.as_bytes(), &data[..]].concat()).unwrap()
         };
         let numbers = |array: Array| match array.values {
             Values::Numbers(numbers) => (array.shape, numbers),
