@@ -67,7 +67,7 @@ pub(crate) fn scene_in_folder(folder: &Path) -> Result<Option<(PathBuf, Others)>
     let own = folder.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     match choose(&names, &own, &|name| std::fs::read(folder.join(name)).ok()) {
         Ok(chosen) => Ok(Some((folder.join(&chosen.name), chosen.others_in("folder", folder)))),
-        Err(Unclear::None) if foreign(&names).is_none() => Ok(None),
+        Err(Unclear::None) if foreign(&names).or(packed(&names)).is_none() => Ok(None),
         Err(unclear) => Err(ImportError::malformed(folder, "folder", unclear.message("give one of them", &names))),
     }
 }
@@ -108,7 +108,10 @@ impl Unclear {
         match self {
             Self::None => match foreign(names) {
                 Some((name, remedy)) => format!("found {name}, which is not read: {remedy}, and give what you exported"),
-                None => format!("found no scene file; expected one of {}", Format::extensions()),
+                None => match packed(names) {
+                    Some((name, remedy)) => format!("found no scene file but {name}: {remedy}"),
+                    None => format!("found no scene file; expected one of {}", Format::extensions()),
+                },
             },
             Self::Several(names) => format!("found {} scene files ({}); {remedy}", names.len(), named(names)),
         }
@@ -154,6 +157,12 @@ fn rank(name: &str, read: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<usize> {
 fn foreign(names: &[String]) -> Option<(&String, &'static str)> {
     let known = names.iter().filter(|name| !is_hidden(name)).filter_map(|name| Some((name, Format::remedy(Path::new(name))?)));
     known.min_by_key(|(name, _)| name.matches('/').count())
+}
+
+/// An archive among files, the nearest to the top, and what to do with it.
+fn packed(names: &[String]) -> Option<(&String, &'static str)> {
+    let archives = names.iter().filter(|name| !is_hidden(name) && Format::of(Path::new(name)).is_ok_and(|format| format == Format::Zip));
+    archives.min_by_key(|name| name.matches('/').count()).map(|name| (name, "give it, or unpack it there if its pictures are beside it"))
 }
 
 /// True for hidden files, and for what macOS adds to archives.

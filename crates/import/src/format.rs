@@ -1,6 +1,6 @@
 //! The scene formats and their file name extensions: the one table of them.
 
-use crate::{ImportError, UpAxis};
+use crate::{ImportError, UpAxis, UpStated};
 use std::path::Path;
 
 /// The scene formats that can be imported, one per module.
@@ -124,6 +124,15 @@ impl Format {
     /// The upward axis where a scene of the format states none.
     pub(crate) const fn up_axis(self) -> UpAxis {
         if matches!(self, Self::Stl | Self::Urdf | Self::Sdf | Self::Mjcf) { UpAxis::Z } else { UpAxis::Y }
+    }
+
+    /// Where a scene of the format states which way is up, unless it leaves that out.
+    pub(crate) const fn up_stated(self) -> UpStated {
+        match self {
+            Self::Obj | Self::Ply | Self::Stl | Self::Mitsuba | Self::Pbrt | Self::Package => UpStated::Nowhere,
+            Self::Gltf => UpStated::ByRule,
+            _ => UpStated::ByFile,
+        }
     }
 
     /// All extensions as written in messages: `.gltf, .glb, …`, in the order of [`ALL`](Self::ALL).

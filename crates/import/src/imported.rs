@@ -15,6 +15,17 @@ pub struct ImportedLabel {
     pub label: PartLabel,
 }
 
+/// Where it is stated which way is up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpStated {
+    /// Nowhere.
+    Nowhere,
+    /// In the rules of the format alone, which programs that write it break: libraries of Python write scenes with z up as glTF as they are.
+    ByRule,
+    /// In the file, or by [`ImportOptions::up_axis`](crate::ImportOptions::up_axis).
+    ByFile,
+}
+
 /// An imported scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
@@ -30,6 +41,8 @@ pub struct Imported {
     pub missing: Vec<PathBuf>,
     /// The rotation, or reflection, from the file's axes to the world's; of no meaning for packages, which have the world's.
     pub axes: DMat3,
+    /// Where it is stated which of them is up.
+    pub up: UpStated,
     /// Counts of the scene's contents, and what was dropped or guessed.
     pub report: ImportReport,
 }

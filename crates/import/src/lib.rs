@@ -97,7 +97,7 @@ pub use environment::{EnvironmentOverride, EnvironmentSource};
 pub use error::ImportError;
 pub use format::{Format, scene_name};
 pub use images::{check_exr_blocks, check_exr_table};
-pub use imported::{Imported, ImportedLabel};
+pub use imported::{Imported, ImportedLabel, UpStated};
 pub use load::{load, scene_in_folder};
 pub use options::{ImportOptions, UpAxis};
 pub use plans::read_plan;

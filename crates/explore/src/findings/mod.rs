@@ -87,10 +87,14 @@ mod tests {
 
     #[test]
     fn nothing_is_found_in_a_furnished_room() {
-        // A cupboard on the floor touches it, and is no finding.
-        let found = look(vec![shell(true), cuboid(DVec3::new(1.0, 1.0, 0.001), DVec3::new(1.6, 2.0, 1.0), false)]);
-        assert!(found.doubled.is_empty() && found.overlapping.is_empty() && found.without_area.is_empty(), "{found:?}");
-        assert_eq!((found.open_floor_m2, found.backs.map(|backs| backs.share)), (0.0, Some(0.0)));
+        // A cupboard on the floor touches it, and a box stands on the cupboard: contacts are no findings.
+        for z in [0.001, 0.0] {
+            let cupboard = cuboid(DVec3::new(1.0, 1.0, z), DVec3::new(1.6, 2.0, 1.0), false);
+            let on_it = cuboid(DVec3::new(1.0, 1.0, 1.0), DVec3::new(1.6, 1.8, 1.3), false);
+            let found = look(vec![shell(true), cupboard, on_it]);
+            assert!(found.doubled.is_empty() && found.overlapping.is_empty() && found.without_area.is_empty(), "{:?}", found.overlapping);
+            assert_eq!((found.open_floor_m2, found.backs.map(|backs| backs.share)), (0.0, Some(0.0)));
+        }
     }
 
     #[test]
@@ -102,13 +106,21 @@ mod tests {
     #[test]
     fn surfaces_that_lie_in_each_other_are_found_with_their_parts() {
         // A carpet right in the floor: 2 m² of it.
-        let carpet = [[1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [1.0, 2.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
-        let carpet = vec![[carpet[0], carpet[1], carpet[2]], [carpet[0], carpet[2], carpet[3]]];
-        let found = look(vec![shell(true), carpet]);
-        assert_eq!(found.overlapping.len(), 1, "{found:?}");
-        assert_eq!(found.overlapping[0].parts, [0, 1]);
-        assert!((found.overlapping[0].area_m2 - 2.0).abs() < 0.3, "{found:?}");
-        assert!(found.doubled.is_empty());
+        let carpet_at = |z: f32| {
+            let [a, b, c, d] = [[1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [1.0, 2.0]].map(|[x, y]| Vec3::new(x, y, z));
+            vec![[a, b, c], [a, c, d]]
+        };
+        for inward in [true, false] {
+            let found = look(vec![shell(inward), carpet_at(0.0)]);
+            assert_eq!(found.overlapping.len(), 1, "{:?}", found.overlapping);
+            assert_eq!(found.overlapping[0].parts, [0, 1]);
+            assert!((found.overlapping[0].area_m2 - 2.0).abs() < 0.3, "{:?}", found.overlapping);
+            assert!(found.doubled.is_empty());
+        }
+        // A sheet that a cupboard stands on, seen from the room below it.
+        let sheet = carpet_at(1.2);
+        let cupboard = cuboid(DVec3::new(1.0, 1.0, 1.2), DVec3::new(2.0, 2.0, 2.0), false);
+        assert_eq!(look(vec![shell(true), sheet, cupboard]).overlapping.len(), 1);
     }
 
     #[test]

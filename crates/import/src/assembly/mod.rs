@@ -27,7 +27,7 @@ use crate::archive::Archive;
 use crate::images::{self, Use};
 use crate::others::Others;
 use crate::report::Warnings;
-use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis};
+use crate::{EnvironmentOverride, Format, ImportError, ImportOptions, ImportReport, Imported, ImportedLabel, UpAxis, UpStated};
 use enfilade_math::{DAffine3, DMat3, DVec3, Mat3};
 use enfilade_scene::{Cx, Labels, PartId, PartLabel, PictureFiles, Scene, SceneError, Warning};
 use names::Names;
@@ -70,6 +70,7 @@ pub(crate) struct Assembly<'a> {
     labels: Vec<ImportedLabel>,
     meters_per_unit: f64,
     axes: DMat3,
+    up: UpStated,
     world_from_file: DAffine3,
     scene: Scene,
 }
@@ -102,6 +103,7 @@ impl<'a> Assembly<'a> {
             labels: Vec::new(),
             meters_per_unit: 1.0,
             axes: DMat3::IDENTITY,
+            up: if options.up_axis.is_some() { UpStated::ByFile } else { format.up_stated() },
             world_from_file: DAffine3::IDENTITY,
             scene: Scene::default(),
         };
@@ -120,6 +122,13 @@ impl<'a> Assembly<'a> {
         self.axes = self.options.up_axis.map_or(world_from_axes, UpAxis::world_from_file);
         self.meters_per_unit = file_meters_per_unit * self.options.meters_per_unit;
         self.world_from_file = DAffine3::from_mat3(self.axes * self.meters_per_unit);
+    }
+
+    /// States that the file leaves out which way is up, so that the rules of its format decide.
+    pub(crate) fn leaves_up_to_rules(&mut self) {
+        if self.options.up_axis.is_none() {
+            self.up = UpStated::ByRule;
+        }
     }
 
     /// An empty scene from the file `entry` within an archive, with the same options.
@@ -235,8 +244,8 @@ impl<'a> Assembly<'a> {
         self.scene.validate().map_err(|source| ImportError::Scene { file, told: told_of_nothing(&source, &warnings), source })?;
         let labels = (!self.labels.is_empty()).then_some(self.labels);
         let report = ImportReport { offset_m: self.offset_m, ..ImportReport::new(self.format, &self.scene, warnings) };
-        let (picture_files, axes) = (self.picture_files, self.axes);
-        Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, report })
+        let (picture_files, axes, up) = (self.picture_files, self.axes, self.up);
+        Ok(Imported { scene: self.scene, labels, picture_files, inputs: self.inputs, missing: self.missing, axes, up, report })
     }
 
     /// Reports those files of the choice that the scene was not made of.

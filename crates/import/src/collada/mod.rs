@@ -70,6 +70,9 @@ fn state_space(dae: &Dae, a: &mut Assembly) {
     if let Some(up) = up.as_deref().filter(|up| !["X_UP", "Y_UP", "Z_UP"].iter().any(|known| known.eq_ignore_ascii_case(up))) {
         a.warn("asset", format!("found {up:?} as up_axis, expected X_UP, Y_UP or Z_UP; y was taken, up_axis (--up-axis) sets another"));
     }
+    if up.is_none() {
+        a.leaves_up_to_rules();
+    }
     let axes = match up.map(|up| up.to_ascii_uppercase()).as_deref() {
         Some("Z_UP") => DMat3::IDENTITY,
         // x up, with y to the left and z towards the viewer.

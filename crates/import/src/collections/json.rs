@@ -1,6 +1,6 @@
 //! JSON of collections: one file into one description, with errors that name line and column.
 
-use super::lenient::Lenient;
+use super::lenient::{Lenient, nan_as_null};
 use crate::ImportError;
 use crate::vectors::numbers;
 use enfilade_math::DVec3;
@@ -11,15 +11,17 @@ use serde_json::Value;
 use serde_json::error::Category;
 use std::path::Path;
 
-/// The description in the bytes of `file`; `what` names the expected content. Numbers may be text, as [`Lenient`] has it.
+/// The description in the bytes of `file`; `what` names the expected content. Numbers may be text, as [`Lenient`] has it, and `NaN`, which
+/// is `null` then.
 ///
 /// # Errors
 /// When it is not JSON, or not of that form: place, what was found and what was expected.
 pub(crate) fn parse<T: DeserializeOwned>(bytes: &[u8], file: &Path, what: &str) -> Result<T, ImportError> {
     let text = decoded_text(bytes);
     let text = without_padding(&text);
-    let lenient = || T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();
-    serde_json::from_str(text).or_else(|error| lenient().ok_or(error)).map_err(|error| {
+    let lenient = |text: &str| T::deserialize(Lenient(serde_json::from_str::<Value>(text).ok()?)).ok();
+    let other = || lenient(text).or_else(|| lenient(&nan_as_null(text)?));
+    serde_json::from_str(text).or_else(|error| other().ok_or(error)).map_err(|error| {
         let place = format!("line {}, column {}", error.line(), error.column());
         let remedy = match error.classify() {
             Category::Data => format!("it is not what {what} has there; correct it, or give the file that belongs to the scene"),

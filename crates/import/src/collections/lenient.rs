@@ -1,12 +1,34 @@
 //! JSON as collections write it rather than as they should: numbers as text, vectors as one text, whole numbers with a point.
 //!
 //! 3D-FRONT writes the coordinates of some meshes as `"1.00000"`. [`Lenient`] gives a type what it asks for wherever the value can only
-//! mean that.
+//! mean that. Python's library writes `NaN` and `Infinity`, which JSON has not: [`nan_as_null`].
 
 use crate::vectors::numbers;
 use serde::de::value::{MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde_json::{Error, Value};
+
+/// The numbers that Python's library writes and JSON has not.
+const NOT_FINITE: [&str; 3] = ["NaN", "-Infinity", "Infinity"];
+
+/// The text with `null` for what is no number; `None` where it has nothing of that kind.
+pub(super) fn nan_as_null(text: &str) -> Option<String> {
+    let mut out = String::with_capacity(text.len());
+    let (mut rest, mut is_in_text, mut found) = (text, false, false);
+    while let Some(c) = rest.chars().next() {
+        let word = NOT_FINITE.into_iter().find(|word| !is_in_text && rest.starts_with(word));
+        let len = match (word, c) {
+            (Some(word), _) => word.len(),
+            (None, '\\') if is_in_text => 1 + rest[1..].chars().next().map_or(0, char::len_utf8),
+            (None, c) => c.len_utf8(),
+        };
+        is_in_text ^= c == '"';
+        found |= word.is_some();
+        out.push_str(if word.is_some() { "null" } else { &rest[..len] });
+        rest = &rest[len..];
+    }
+    found.then_some(out)
+}
 
 /// A value that is read as the type wants it.
 pub(super) struct Lenient(pub Value);
@@ -185,6 +207,13 @@ mod tests {
             "list": ["1", 2.0], "inner": {"name": "b"}, "anything": {"a": ["1"]}});
         assert_eq!(read(odd).unwrap(), expected);
         assert_eq!(read(json!({"name": 7, "flag": 1})).unwrap(), Thing { name: "7".into(), flag: true, ..Thing::default() });
+    }
+
+    #[test]
+    fn numbers_that_json_has_not_are_null_outside_of_texts() {
+        let python = r#"{"a": [NaN, 1, -Infinity], "NaN \" NaN": "Infinity", "b":Infinity}"#;
+        assert_eq!(nan_as_null(python).unwrap(), r#"{"a": [null, 1, null], "NaN \" NaN": "Infinity", "b":null}"#);
+        assert_eq!(nan_as_null(r#"{"NaN": "-Infinity\\"}"#), None);
     }
 
     #[test]

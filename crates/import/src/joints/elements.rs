@@ -39,6 +39,27 @@ pub(crate) fn vector<const N: usize>(node: Node, attribute: &str, a: &Assembly) 
     let Some(text) = node.attribute(attribute) else { return Ok(None) };
     let found: Option<[f64; N]> = numbers(text).and_then(|v| v.try_into().ok());
     let at = node.document().text_pos_at(node.range().start);
-    let problem = || format!("found {text:?} as {attribute} of <{}>, expected {N} numbers", node.tag_name().name());
+    let remedy = if is_xacro(text) { format!(": {TO_URDF}") } else { String::new() };
+    let problem = || format!("found {text:?} as {attribute} of <{}>, expected {N} numbers{remedy}", node.tag_name().name());
     found.map(Some).ok_or_else(|| a.malformed(format!("line {}", at.row), problem()))
+}
+
+/// What to do with a file for xacro that is called URDF.
+const TO_URDF: &str = "the file is written for xacro, so make URDF of it with ROS (xacro FILE > robot.urdf)";
+
+/// Whether a value is an expression or a substitution of xacro.
+fn is_xacro(text: &str) -> bool {
+    text.contains("${") || text.contains("$(")
+}
+
+/// Reports elements of xacro, which are conditions, macros and parts of other files.
+pub(crate) fn tell_of_xacro(root: Node, a: &mut Assembly) {
+    let of_xacro = |node: &Node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro"));
+    let mut all = root.descendants().filter(of_xacro);
+    if let Some(first) = all.next() {
+        let at = first.document().text_pos_at(first.range().start);
+        let (name, more) = (first.tag_name().name(), all.count());
+        let others = if more > 0 { format!(" and {more} more elements of xacro were") } else { " was".into() };
+        a.warn(format!("line {}", at.row), format!("<xacro:{name}>{others} left out: {TO_URDF}"));
+    }
 }

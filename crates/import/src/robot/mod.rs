@@ -12,7 +12,7 @@
 //! | joints of SDF | the same: `revolute`, `continuous`, `prismatic`, `ball`; `fixed` ones hold together. Axes by `expressed_in`, poses by `relative_to`. Of joints that close a circle one is left out with a warning, and so are screws, gears and universal joints |
 //! | inertias, collisions, sensors, plug-ins | without effect |
 //!
-//! Both are in metres with z up. Xacro is a program that writes URDF, and is not read. Vectors may have commas.
+//! Both are in metres with z up. Xacro is a program that writes URDF; its elements are reported and left out. Vectors may have commas.
 
 pub(crate) mod mjcf;
 mod partnet;
@@ -23,6 +23,7 @@ mod shapes;
 mod urdf;
 
 use crate::assembly::Assembly;
+use crate::joints::elements::tell_of_xacro;
 use crate::{ImportError, Imported, UpAxis};
 use roxmltree::{Document, Node};
 
@@ -52,6 +53,7 @@ fn load(
     if !fits {
         return Err(a.malformed("line 1", format!("the outermost element is <{found}>, expected <{outermost}>")));
     }
+    tell_of_xacro(root, &mut a);
     let mut shapes = shapes::Shapes::of(a.file());
     place(root, &mut shapes, &mut a)?;
     a.finish()

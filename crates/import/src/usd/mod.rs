@@ -81,7 +81,11 @@ pub(crate) fn load(mut assembly: Assembly) -> Result<Imported, ImportError> {
     let mut stage = Stage::open(&file, &mut assembly)?;
     let root = stage.root();
     let metres = root.field("metersPerUnit").and_then(Value::as_number).filter(|m| m.is_finite() && *m > 0.0);
-    let up = root.field("upAxis").and_then(Value::as_text).map_or(UpAxis::Y, |axis| if axis == "Z" { UpAxis::Z } else { UpAxis::Y });
+    let stated = root.field("upAxis").and_then(Value::as_text);
+    if stated.is_none() {
+        assembly.leaves_up_to_rules();
+    }
+    let up = if stated == Some("Z") { UpAxis::Z } else { UpAxis::Y };
     assembly.set_units(metres.unwrap_or(DEFAULT_METERS_PER_UNIT), up);
     Walk::new(&mut stage, up == UpAxis::Z).all(&mut assembly)?;
     assembly.finish()

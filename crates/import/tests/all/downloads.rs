@@ -87,6 +87,8 @@ fn what_was_chosen_among_several_is_told_and_what_cannot_be_chosen_refused() {
     let folder = Folder::new();
     let error = folder.write("pack.zip", zip(&[("a.glb", &glb), ("b.glb", &glb)])).error("pack.zip");
     assert!(error.contains("found 2 scene files (a.glb, b.glb); unpack it and give the scene file"), "{error}");
+    let error = folder.write("unpacked/source/sofa.zip", OBJ).write("unpacked/textures/a.png", b"").error("unpacked");
+    assert!(error.contains("found no scene file but source/sofa.zip: give it, or unpack it there"), "{error}");
     let error = folder.write("pack.zip", zip(&[("a.blend", b"BLENDER"), ("textures/a.png", b"")])).error("pack.zip");
     assert!(error.contains("found a.blend") && error.contains("export glTF"), "{error}");
     assert!(folder.write("pack.zip", b"PK\x03\x04cut").error("pack.zip").contains("not an archive that can be read"));

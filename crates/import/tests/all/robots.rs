@@ -221,6 +221,25 @@ fn joints_of_unknown_parents_hold_what_they_hold_in_the_world() {
 }
 
 #[test]
+fn what_is_still_written_for_xacro_is_told_with_what_to_do() {
+    let folder = Folder::new();
+    let link = |size: &str| format!("<link name=\"l\"><visual><geometry><box size=\"{size}\"/></geometry></visual></link>");
+    let advice = "make URDF of it with ROS (xacro FILE > robot.urdf)";
+    for size in ["${w} 1 1", "$(arg w) 1 1"] {
+        let error = folder.write("a.urdf", format!("<robot name=\"r\">{}</robot>", link(size))).error("a.urdf");
+        assert!(error.contains("as size of <box>, expected 3 numbers: ") && error.contains(advice), "{error}");
+    }
+    let error = folder.write("a.urdf", format!("<robot name=\"r\">{}</robot>", link("1 1"))).error("a.urdf");
+    assert!(!error.contains("xacro"), "{error}");
+    // Parts of other files, with the prefix declared or not.
+    for head in ["<robot name=\"r\">", "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"] {
+        let text = format!("{head}<xacro:include filename=\"b.xacro\"/><xacro:leg at=\"1\"/>{}</robot>", link("1 1 1"));
+        let told = warnings(&folder.write("a.urdf", text).load("a.urdf").unwrap_or_else(|e| panic!("{e}")));
+        assert!(told.contains("<xacro:include> and 1 more elements of xacro were left out") && told.contains(advice), "{told}");
+    }
+}
+
+#[test]
 fn worlds_stand_as_their_first_state_has_them() {
     // Gazebo loads the world and then sets its first state (World::Load): poses of models, and of links, are those in the world.
     let model = |name: &str, link: &str, pose: &str| {

@@ -8,7 +8,7 @@ use crate::config::FileSource;
 use enfilade_dataset::counted;
 use enfilade_import::Imported;
 use enfilade_label::doubts;
-use enfilade_scene::{PartId, Scene};
+use enfilade_scene::{Alpha, PartId, Scene};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
@@ -44,7 +44,7 @@ pub(super) fn of_geometry(source: &FileSource, imported: &Imported, look: &Look)
     let rooms_are_known = unit.is_none() && suspicions.axes.is_none();
     let [open_floor, backs] = if rooms_are_known { [open_floor(look), backs(scene, look)] } else { [None, None] };
     let found = [suspicions.axes, unit, open_floor, doubled::remark(source, scene, look), overlapping(scene, look), backs];
-    found.into_iter().flatten().chain(without_area(scene, look)).collect()
+    found.into_iter().flatten().chain(invisible(scene)).chain(without_area(scene, look)).collect()
 }
 
 /// Doubts about the instances that the file itself defines.
@@ -148,6 +148,24 @@ fn backs(scene: &Scene, look: &Look) -> Option<String> {
         format!(
             "{percent:.0} % of what is seen in its rooms are backs of faces; {names} are black there, since their materials have one side: \
              in Mitsuba files put the bsdf into a \"twosided\" one, or turn the faces"
+        )
+    })
+}
+
+/// Parts that their opacity hides: helpers of an editor, or glass that its exporter made of nothing.
+fn invisible(scene: &Scene) -> Option<String> {
+    let is_invisible = |part: &PartId| match &scene.materials[scene.parts[*part as usize].material as usize].alpha {
+        Alpha::Opaque => false,
+        Alpha::Mask { opacity, cutoff } => opacity.factor < *cutoff,
+        Alpha::Blend { opacity } => opacity.factor <= 0.0,
+    };
+    let parts: Vec<PartId> = (0..scene.parts.len() as PartId).filter(is_invisible).collect();
+    (!parts.is_empty()).then(|| {
+        let (verb, their) = if parts.len() == 1 { ("has", "its") } else { ("have", "their") };
+        format!(
+            "{} {verb} no opacity and cannot be seen ({}); if that is glass, give {their} material transmission, or an opacity above zero",
+            counted(parts.len(), "part"),
+            names(scene, &parts)
         )
     })
 }

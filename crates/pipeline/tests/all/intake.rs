@@ -85,6 +85,17 @@ fn doubled_faces_are_told_and_go_where_that_is_asked_for() {
 }
 
 #[test]
+fn parts_without_opacity_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let pane = "o pane\nusemtl PANE\nv 1 1 1\nv 2 1 1\nv 2 1 2\nv 1 1 2\nf 9 10 11 12\n";
+    for (opacity, expected) in [("0", true), ("0.2", false), ("1", false)] {
+        std::fs::write(folder.path().join("room.mtl"), format!("newmtl PANE\nKd 1 1 1\nd {opacity}\n")).unwrap();
+        let text = told(&source(folder.path(), &format!("mtllib room.mtl\n{}{pane}", room(1.0))));
+        assert_eq!(text.contains("1 part has no opacity and cannot be seen (\"pane\"); if that is glass"), expected, "{opacity}: {text}");
+    }
+}
+
+#[test]
 fn a_wrong_unit_is_told_with_the_ones_that_make_a_room() {
     let folder = tempfile::tempdir().unwrap();
     for (scale, words) in [

@@ -221,6 +221,65 @@ fn rooms_without_names_are_suspected_by_what_things_rest_on() {
     assert_eq!(of_gltf(&nameless(&[&ROOM[..6], &pictures].concat(), y_up)), [""; 0]);
 }
 
+#[test]
+fn files_that_leave_out_which_way_is_up_are_suspected_as_those_of_formats_that_cannot_say() {
+    let table = ("", [1.0, 0.8, 0.0], [1.8, 2.0, 0.75]);
+    let lamp = ("", [1.2, 1.2, 0.75], [1.5, 1.5, 1.15]);
+    let room = [&ROOM[..], &[table, lamp]].concat();
+    let text = |place: Turn| boxes(&room, place);
+    for (name, shapes, unstated, stated) in [
+        ("room.usda", usda as fn(&str) -> String, "", "    upAxis = \"Y\"\n"),
+        ("room.dae", dae, "", "<up_axis>Y_UP</up_axis>"),
+    ] {
+        let file = |head: &str, place: Turn| shapes(&text(place)).replace("UP", head);
+        let told = plain(name, &file(unstated, |p| p));
+        assert!(told.len() == 1 && told[0].contains("up_axis = \"z\" (or --up-axis z)"), "{name}: {told:?}");
+        assert_eq!(plain(name, &file(unstated, y_up)), [""; 0], "{name}");
+        // What the file states is believed.
+        assert_eq!(plain(name, &file(stated, |p| p)), [""; 0], "{name}");
+    }
+}
+
+/// The shapes of an OBJ file without their names: vertices, and corners of quadrilaterals from 0 on.
+fn shapes_of(obj: &str) -> (Vec<[String; 3]>, Vec<String>) {
+    let row = |line: &str, mark: &str| line.strip_prefix(mark).map(|rest| rest.split(' ').map(str::to_string).collect::<Vec<_>>());
+    let vertices = obj.lines().filter_map(|line| row(line, "v ")).map(|v| v.try_into().unwrap()).collect();
+    let corners = obj.lines().filter_map(|line| row(line, "f ")).flatten();
+    (vertices, corners.map(|i| (i.parse::<usize>().unwrap() - 1).to_string()).collect())
+}
+
+/// USD, with UP where the upward axis may be stated.
+fn usda(obj: &str) -> String {
+    let (vertices, corners) = shapes_of(obj);
+    let points: Vec<String> = vertices.iter().map(|v| format!("({})", v.join(", "))).collect();
+    let counts = vec!["4"; corners.len() / 4].join(", ");
+    format!(
+        "#usda 1.0\n(\n    metersPerUnit = 1\nUP)\ndef Mesh \"m\" {{ point3f[] points = [{}] int[] faceVertexCounts = [{counts}] int[] \
+         faceVertexIndices = [{}] }}\n",
+        points.join(", "),
+        corners.join(", ")
+    )
+}
+
+/// COLLADA, with UP where the upward axis may be stated.
+fn dae(obj: &str) -> String {
+    let (vertices, corners) = shapes_of(obj);
+    let (count, numbers) = (vertices.len(), vertices.concat().join(" "));
+    let quads = corners.len() / 4;
+    format!(
+        r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>UP</asset>
+        <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="{}">{numbers}</float_array>
+        <technique_common><accessor source="#a" count="{count}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+        <param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+        <polylist count="{quads}"><input semantic="VERTEX" source="#v" offset="0"/><vcount>{}</vcount><p>{}</p></polylist></mesh></geometry>
+        </library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+        </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"##,
+        3 * count,
+        vec!["4"; quads].join(" "),
+        corners.join(" ")
+    )
+}
+
 /// The suspicions about the shapes of an OBJ file as glTF, which has them as they are.
 fn of_gltf(obj: &str) -> Vec<String> {
     let row = |line: &str, mark: &str| line.strip_prefix(mark).map(|rest| rest.split(' ').map(str::to_string).collect::<Vec<_>>());

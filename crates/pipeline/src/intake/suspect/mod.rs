@@ -19,10 +19,7 @@ use crate::config::FileSource;
 use enfilade_import::{Imported, UpAxis};
 use enfilade_math::DVec3;
 use names::Named;
-use upright::{Lying, Stated, Witness};
-
-/// Formats whose files state which way is up.
-const STATE_UP: [&str; 11] = ["gltf", "usd", "fbx", "collada", "urdf", "sdf", "mjcf", "zip", "vray", "sweethome", "collection"];
+use upright::{Lying, Witness};
 
 /// The suspicions about a scene.
 pub(super) struct Suspicions {
@@ -39,14 +36,9 @@ pub(super) fn judge(source: &FileSource, imported: &Imported, look: &Look) -> Su
     if look.world.bounds.is_empty() {
         return Suspicions { axes: None, sizes: Sizes::Unknown, is_thing: false };
     }
-    let (scene, format) = (&imported.scene, imported.report.format);
+    let scene = &imported.scene;
     let named = Named::of(source, imported);
-    let stated = match (STATE_UP.contains(&format) || source.up_axis.is_some(), format) {
-        (true, "gltf") if source.up_axis.is_none() => Stated::ByRule,
-        (true, _) => Stated::ByFile,
-        (false, _) => Stated::Nowhere,
-    };
-    let lying = upright::suspected(scene, look, &named, imported.axes, stated);
+    let lying = upright::suspected(scene, look, &named, imported.axes, imported.up);
     // Heights are along what is up in truth.
     let up = lying.as_ref().map_or(DVec3::Z, |lying| lying.up);
     let sizes = units::judge(scene, look, &named, up);

@@ -2,6 +2,7 @@
 
 use super::{names::Named, support};
 use crate::intake::seen::Look;
+use enfilade_import::UpStated;
 use enfilade_math::{DMat3, DVec3};
 use enfilade_scene::{CEILING, FLOOR, Scene};
 
@@ -44,19 +45,8 @@ pub(super) enum Witness {
     Surfaces,
 }
 
-/// Where it is stated which way is up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stated {
-    /// Nowhere.
-    Nowhere,
-    /// In the rules of the format alone, which programs that write it break: libraries of Python write scenes with z up as glTF as they are.
-    ByRule,
-    /// In the file, or by a key.
-    ByFile,
-}
-
 /// The upward direction where it is not z by all that is known; `axes` turn the file's to the world's.
-pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, stated: Stated) -> Option<Lying> {
+pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, stated: UpStated) -> Option<Lying> {
     let cameras = of_cameras(scene);
     let lying = |up: DVec3, witnesses: &[Witness]| (up != DVec3::Z).then(|| Lying { up, witnesses: witnesses.to_vec() });
     match (of_names(look, named), cameras) {
@@ -68,9 +58,9 @@ pub(super) fn suspected(scene: &Scene, look: &Look, named: &Named, axes: DMat3, 
         (None, None) => {
             let rest = || flat_side(look).and_then(|axis| support::upward(look, axis)).and_then(|up| lying(up, &[Witness::Support]));
             match stated {
-                Stated::ByFile => None,
-                Stated::ByRule => rest(),
-                Stated::Nowhere => of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])).or_else(rest),
+                UpStated::ByFile => None,
+                UpStated::ByRule => rest(),
+                UpStated::Nowhere => of_surfaces(look, axes).and_then(|up| lying(up, &[Witness::Surfaces])).or_else(rest),
             }
         }
     }
