@@ -28,7 +28,7 @@ pub enum Action {
     AssignEach { pieces: Vec<u32>, semantic: Vec<i64> },
     /// Splits a piece.
     Split { piece: u32, by: SplitBy },
-    /// Labels the moved copies of pieces as these are labelled, each copy with instances of its own.
+    /// Labels the copies of pieces, moved or mirrored, as these are labelled, each copy with instances of its own.
     SameAgain { pieces: Vec<u32> },
     /// Undoes the last edit of the person who asks, or of everyone.
     Undo {

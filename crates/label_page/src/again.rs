@@ -1,23 +1,23 @@
-//! "The same again": moved copies of labelled pieces are found by their shape, and labelled alike.
+//! "The same again": copies of labelled pieces are found by their shape, and labelled alike.
 //!
-//! A copy has a piece for each of the pieces, of the same shape, and one rigid motion takes all of them there. The motion of a piece follows
-//! from corresponding corners, so copies must list their faces in one order, as those have that a program placed several times.
+//! A copy has a piece for each of the pieces, of the same shape, and one motion, which may mirror, takes all of them there. Where a program
+//! placed one mesh several times, the motion follows from corresponding corners; else [`Points`] finds it.
 
 use super::action::{Context, Refusal};
 use super::pieces::Pieces;
+use super::congruence::{Points, TOLERANCE, TOLERANCE_M};
 use enfilade_label::annotation::Edit;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::PartLabel;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::rc::Rc;
 
-/// Corners may be so far from where the motion takes them: the rounding of files, metres and as a share of the distance from the anchor.
-const TOLERANCE_M: f64 = 1e-3;
-const TOLERANCE: f64 = 1e-4;
 /// Corners nearer to a line than this share of the size determine no rotation.
 const FLAT: f64 = 1e-3;
 
 impl Context<'_> {
-    /// The edit that labels the moved copies of pieces.
+    /// The edit that labels the copies of pieces.
     ///
     /// # Errors
     /// When the pieces have no classes, there is no copy without classes, or there are not enough instance numbers.
@@ -34,10 +34,10 @@ impl Context<'_> {
         let found: Vec<&Vec<u32>> = all.iter().filter(|copy| copy.iter().all(|&piece| label(piece).semantic < 1)).collect();
         if found.is_empty() {
             let error = match all.len() {
-                0 => format!("there is no moved copy of {name:?}"),
+                0 => format!("there is no copy of {name:?}"),
                 many => format!("all {many} copies of {name:?} have classes already"),
             };
-            return Err(Refusal::conflict(error, "copies have the same shapes in the same arrangement, and faces in the same order"));
+            return Err(Refusal::conflict(error, "copies have the same shapes in the same arrangement, or its mirror image"));
         }
         let numbers: BTreeSet<i16> = group.iter().map(|&piece| label(piece).instance).filter(|&instance| instance >= 1).collect();
         let wanted = numbers.len() * found.len();
@@ -59,7 +59,7 @@ impl Context<'_> {
     }
 }
 
-/// The moved copies of a group of pieces: in each the piece for every piece of the group, in its order. No two share a piece.
+/// The copies of a group of pieces, moved or mirrored: in each the piece for every piece of the group, in its order. No two share a piece.
 fn copies(pieces: &Pieces, group: &[u32]) -> Vec<Vec<u32>> {
     let list = pieces.list();
     let key = |piece: u32| list[piece as usize].measure.geometry_key;
@@ -69,26 +69,25 @@ fn copies(pieces: &Pieces, group: &[u32]) -> Vec<Vec<u32>> {
     // The shape that is rarest elsewhere leaves the fewest places to look at; of those the one with most faces.
     let anchor = group.iter().copied().min_by_key(|&piece| (others(piece).len(), usize::MAX - list[piece as usize].faces.len(), piece));
     let Some(anchor) = anchor else { return Vec::new() };
-    let corners: Vec<Vec<DVec3>> = group.iter().map(|&piece| corners(pieces, piece)).collect();
+    let shapes = Shapes { pieces, known: RefCell::default() };
     let mut used: BTreeSet<u32> = BTreeSet::new();
     let mut found = Vec::new();
-    let at = group.iter().position(|&piece| piece == anchor).unwrap_or(0);
     for &there in others(anchor) {
-        let Some(motion) = motion(&corners[at], &self::corners(pieces, there)) else { continue };
-        let fits = |i: usize, piece: u32| is_moved(&corners[i], &self::corners(pieces, piece), &motion, corners[at][0]);
-        let mut copy = Vec::new();
-        for (i, &piece) in group.iter().enumerate() {
-            let free = |other: &&u32| !used.contains(other) && !copy.contains(*other);
-            let near = |other: &&u32| is_near(list[**other as usize].measure.min, &corners[i], &motion);
-            let place = if i == at {
-                Some(there).filter(|there| !used.contains(there))
-            } else {
-                others(piece).iter().filter(free).filter(near).copied().find(|&other| fits(i, other))
-            };
-            let Some(place) = place else { break };
-            copy.push(place);
-        }
-        if copy.len() == group.len() && fits(at, there) {
+        let copy_by = |motion: DAffine3| {
+            let mut copy = Vec::new();
+            for &piece in group {
+                let free = |other: &&u32| !used.contains(other) && !copy.contains(*other);
+                let low = shapes.lowest(piece, &motion);
+                let near = |other: &&u32| is_near(list[**other as usize].measure.min, low);
+                let fits = |other: &u32| shapes.are_taken(piece, *other, &motion, anchor);
+                let candidates = if piece == anchor { std::slice::from_ref(&there) } else { others(piece) };
+                copy.push(candidates.iter().filter(free).filter(near).copied().find(fits)?);
+            }
+            Some(copy)
+        };
+        let in_order = motion(&shapes.of(anchor).corners, &shapes.of(there).corners);
+        let copy = in_order.and_then(copy_by).or_else(|| shapes.motions(anchor, there).into_iter().find_map(copy_by));
+        if let Some(copy) = copy {
             used.extend(&copy);
             found.push(copy);
         }
@@ -96,16 +95,56 @@ fn copies(pieces: &Pieces, group: &[u32]) -> Vec<Vec<u32>> {
     found
 }
 
-/// The corners of a piece's faces, in order.
-fn corners(pieces: &Pieces, piece: u32) -> Vec<DVec3> {
-    let of_face = |&face: &u32| pieces.scene().corners[face as usize];
-    pieces.list()[piece as usize].faces.iter().flat_map(of_face).map(|corner| corner.as_dvec3()).collect()
+/// The shapes of pieces, each computed once, when it is needed.
+struct Shapes<'p> {
+    pieces: &'p Pieces,
+    known: RefCell<HashMap<u32, Rc<Shape>>>,
+}
+
+/// A shape in the world.
+struct Shape {
+    /// Corners of the faces, in order.
+    corners: Vec<DVec3>,
+    points: OnceCell<Points>,
+}
+
+impl Shape {
+    fn points(&self) -> &Points {
+        self.points.get_or_init(|| Points::of(&self.corners))
+    }
+}
+
+impl Shapes<'_> {
+    fn of(&self, piece: u32) -> Rc<Shape> {
+        let make = || {
+            let of_face = |&face: &u32| self.pieces.scene().corners[face as usize];
+            let faces = &self.pieces.list()[piece as usize].faces;
+            let corners = faces.iter().flat_map(of_face).map(|corner| corner.as_dvec3()).collect();
+            Rc::new(Shape { corners, points: OnceCell::new() })
+        };
+        self.known.borrow_mut().entry(piece).or_insert_with(make).clone()
+    }
+
+    /// The lower corner of the bounds of a moved piece.
+    fn lowest(&self, piece: u32, motion: &DAffine3) -> DVec3 {
+        self.of(piece).corners.iter().fold(DVec3::INFINITY, |low, &corner| low.min(motion.transform_point3(corner)))
+    }
+
+    /// True where the motion takes a piece to another, corner by corner or, if its faces are in another order, as a whole.
+    fn are_taken(&self, piece: u32, other: u32, motion: &DAffine3, anchor: u32) -> bool {
+        let (from, to) = (self.of(piece), self.of(other));
+        is_moved(&from.corners, &to.corners, motion, self.of(anchor).corners[0]) || from.points().are_taken_to(to.points(), motion)
+    }
+
+    /// The motions that take a piece to another, in whatever order their faces are.
+    fn motions(&self, piece: u32, other: u32) -> Vec<DAffine3> {
+        self.of(piece).points().motions_to(self.of(other).points())
+    }
 }
 
 /// True where the lower corner of a piece's bounds is about where that of the moved corners is: most pieces are told apart by this alone.
-fn is_near(min: [f32; 3], corners: &[DVec3], motion: &DAffine3) -> bool {
-    let moved = corners.iter().fold(DVec3::INFINITY, |low, &corner| low.min(motion.transform_point3(corner)));
-    moved.distance(DVec3::from_array(min.map(f64::from))) < 4.0 * TOLERANCE_M + TOLERANCE * moved.length()
+fn is_near(min: [f32; 3], low: DVec3) -> bool {
+    low.distance(DVec3::from_array(min.map(f64::from))) < 4.0 * TOLERANCE_M + TOLERANCE * low.length()
 }
 
 /// True where the motion takes each corner to its counterpart.

@@ -110,13 +110,23 @@ impl PageCamera {
         PinholeRays { origin: self.position.as_vec3(), corner: corner.as_vec3(), right: right.as_vec3(), down: down.as_vec3() }
     }
 
-    /// The ray through the image point (x, y), counted from the image's corner; its direction is a unit vector.
-    pub fn ray(&self, x: f64, y: f64) -> Ray {
+    /// The point that is seen at the image point (x, y) at a depth along the optical axis.
+    pub fn point(&self, x: f64, y: f64, depth_m: f64) -> DVec3 {
+        self.position + self.through(x, y) * depth_m
+    }
+
+    /// The direction through an image point, of length 1 along the optical axis.
+    fn through(&self, x: f64, y: f64) -> DVec3 {
         let pixel = 2.0 * self.half_height / f64::from(self.height);
         let m = &self.world_from_camera;
         let right = m.x_axis * (pixel * (x - 0.5 * f64::from(self.width)));
         let down = m.y_axis * (pixel * (0.5 * f64::from(self.height) - y));
-        let through = right + down - m.z_axis;
+        right + down - m.z_axis
+    }
+
+    /// The ray through the image point (x, y), counted from the image's corner; its direction is a unit vector.
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let through = self.through(x, y);
         let ray = Ray::new(self.position.as_vec3(), through.normalize().as_vec3());
         Ray { t_min: ray.t_min.max((self.near_m * through.length()) as f32), ..ray }
     }

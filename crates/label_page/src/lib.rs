@@ -18,6 +18,7 @@ mod camera;
 mod carry;
 mod change;
 mod clock;
+mod congruence;
 mod earlier;
 mod events;
 mod face_colors;

@@ -4,6 +4,7 @@ use super::camera::PageCamera;
 use enfilade_geometry::{Bvh, Hit, NOTHING, VisibilityBuffer};
 use enfilade_math::{Bounds3, Ray, Vec3};
 use serde::Deserialize;
+use std::cell::Cell;
 use std::collections::{BTreeSet, HashSet};
 
 /// Points per pixel along lines, as in Hypersim's tool.
@@ -12,10 +13,10 @@ const SAMPLES_PER_PIXEL: f64 = 4.0;
 const MAX_IMAGE_COORDINATE: f64 = 65_536.0;
 /// Longest stroke, in points along it.
 const MAX_SAMPLES: f64 = 16e6;
-/// Pixels of the largest rectangle: all of a window of 5120 × 2880, with some room.
-const MAX_PIXELS: u64 = 1 << 24;
 /// Rows of a rectangle that are drawn at once: whole tiles of the visibility buffer.
 const BAND_ROWS: u32 = 64;
+/// Nearer to a side of the clip box than this share of the depth, a ray decides on which side a surface is.
+const CLIP_TOLERANCE: f64 = 1e-4;
 
 /// A shape drawn over the image. Coordinates are in pixels from the upper left corner of the image, so that pixel centres are at halves.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -60,19 +61,7 @@ impl StrokeShape {
             return Err("shape.pen is empty; expected at least one point".into());
         }
         if let Self::Rectangle(_) = self {
-            let covered = rectangle(points[0], points[1], camera);
-            if let Covered::Rectangle([left, top], [right, bottom]) = covered {
-                let pixels = u64::from(right - left + 1) * u64::from(bottom - top + 1);
-                if pixels > MAX_PIXELS {
-                    let millions = |pixels: u64| pixels >> 20;
-                    return Err(format!(
-                        "shape.rectangle covers {} million pixels; expected at most {}: ask for a smaller image",
-                        millions(pixels),
-                        millions(MAX_PIXELS)
-                    ));
-                }
-            }
-            return Ok(covered);
+            return Ok(rectangle(points[0], points[1], camera));
         }
         let lengths = points.windows(2).map(|pair| f64::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
         let samples = lengths.sum::<f64>() * SAMPLES_PER_PIXEL;
@@ -109,6 +98,12 @@ fn rectangle(a: [f64; 2], b: [f64; 2], camera: &PageCamera) -> Covered {
     }
 }
 
+/// Whether the surface at a depth is within a box, and not so near to one of its sides that rounding decides.
+fn is_well_within(clip: &Bounds3, camera: &PageCamera, x: f64, y: f64, depth_m: f64) -> bool {
+    let (point, margin) = (camera.point(x, y, depth_m), CLIP_TOLERANCE * depth_m);
+    (point - clip.min.as_dvec3()).min_element() > margin && (clip.max.as_dvec3() - point).min_element() > margin
+}
+
 /// The scene as rays meet it, without hidden pieces.
 pub struct VisibleScene<'a> {
     /// All faces, including those of hidden pieces.
@@ -138,26 +133,30 @@ impl VisibleScene<'_> {
                 let centre = |&[x, y]: &[u32; 2]| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
                 enfilade_parallel::flat_map(pixels, centre)
             }
-            // The visibility buffer draws every face of the hierarchy, and only rays can skip hidden pieces and what is clipped.
-            Covered::Rectangle(first, last) if !self.hidden.is_empty() || camera.clip.is_some() => {
-                let rows = (last[1] + 1).saturating_sub(first[1]) as usize;
-                let centre = |x: u32, y: u32| self.meet(camera, f64::from(x) + 0.5, f64::from(y) + 0.5).map(|picked| picked.face);
-                let row = |y: u32| (first[0]..=last[0]).filter_map(|x| centre(x, y)).collect::<HashSet<u32>>();
-                enfilade_parallel::flat_map_up_to(rows, |k| row(first[1] + k as u32))
-            }
             Covered::Rectangle(first, last) => {
                 let tops: Vec<u32> = (first[1]..=last[1]).step_by(BAND_ROWS as usize).collect();
                 let band = |&top: &u32| {
                     let rows = (last[1] - top + 1).min(BAND_ROWS);
                     let mut buffer = VisibilityBuffer::new(last[0] - first[0] + 1, rows);
                     buffer.draw(self.bvh, &camera.rays(first[0], top));
-                    // The buffer has no near plane: if a face in front of it covers the pixel, a ray finds the surface behind.
+                    // The buffer shows all faces, also those in front of the near plane, hidden and outside the clip box. Where such a
+                    // one covers the pixel, a ray finds the surface behind.
+                    let last = Cell::new(NOTHING);
                     let seen = |(i, (&face, &inverse_z)): (usize, (&u32, &f32))| {
-                        if f64::from(inverse_z) * camera.near_m <= 1.0 {
-                            return (face != NOTHING).then_some(face);
+                        if face == NOTHING {
+                            return None;
                         }
+                        let is_known = face == last.get();
                         let (x, y) = (first[0] as usize + i % buffer.size()[0], top as usize + i / buffer.size()[0]);
-                        self.meet(camera, x as f64 + 0.5, y as f64 + 0.5).map(|picked| picked.face)
+                        let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
+                        let is_shown = f64::from(inverse_z) * camera.near_m <= 1.0
+                            && (is_known || !self.hidden.contains(&self.piece_of_face[face as usize]))
+                            && camera.clip.is_none_or(|clip| is_well_within(&clip, camera, x, y, 1.0 / f64::from(inverse_z)));
+                        if is_shown {
+                            last.set(face);
+                            return Some(face).filter(|_| !is_known);
+                        }
+                        self.meet(camera, x, y).map(|picked| picked.face)
                     };
                     buffer.triangles().iter().zip(buffer.inverse_z()).enumerate().filter_map(seen).collect::<HashSet<u32>>()
                 };

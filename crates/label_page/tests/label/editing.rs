@@ -154,14 +154,25 @@ async fn every_pixel_of_a_rectangle_sees_what_its_ray_sees() {
     // From a place where no ray meets an edge exactly.
     let mut camera = camera();
     camera["position"] = json!([0.013, -5.0, 1.021]);
-    let look = |shape: Value, hidden: Value| json!({ "camera": camera, "shape": shape, "faces": true, "hidden": hidden });
-    let all = page.post("select", look(json!({ "rectangle": [0, 0, 99.9, 99.9] }), json!([])).to_string()).await.1;
     let mut pixels = Vec::new();
     for y in 0..100 {
         pixels.extend([[0.5, f64::from(y) + 0.5], [99.5, f64::from(y) + 0.5]]);
     }
-    let rays = page.post("select", look(json!({ "pen": pixels }), json!([])).to_string()).await.1;
-    assert_eq!(all["faces"], rays["faces"]);
+    // The second box cuts through things, and a side of the third lies in the front of `near`.
+    let clips = [[[-9.0; 3], [9.0; 3]], [[-2.1, -0.2, 0.7], [0.2, 9.0, 1.3]], [[-9.0, -0.5, -9.0], [9.0; 3]]];
+    for (clip, hidden) in [(None, json!([])), (None, json!([1, 3]))]
+        .into_iter()
+        .chain(clips.iter().flat_map(|clip| [(Some(clip), json!([])), (Some(clip), json!([1]))]))
+    {
+        let mut camera = camera.clone();
+        if let Some([min, max]) = clip {
+            camera["clip"] = json!({ "min": min, "max": max });
+        }
+        let look = |shape: Value| json!({ "camera": camera, "shape": shape, "faces": true, "hidden": hidden }).to_string();
+        let all = page.post("select", look(json!({ "rectangle": [0, 0, 99.9, 99.9] }))).await.1;
+        let rays = page.post("select", look(json!({ "pen": pixels }))).await.1;
+        assert!(all["faces"] == rays["faces"] && !all["faces"].as_array().unwrap().is_empty(), "{clip:?} {hidden}: {all} {rays}");
+    }
 }
 
 #[tokio::test]

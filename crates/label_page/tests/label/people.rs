@@ -94,6 +94,31 @@ async fn copies_of_several_pieces_have_the_same_arrangement() {
     assert_eq!((&change["pieces"], &change["instance"]), (&json!([3, 5]), &json!([2, 2])), "{change}");
 }
 
+/// A seat of two boxes, one mirrored whose boxes list their faces the other way, and two boxes that stand otherwise.
+#[tokio::test]
+async fn mirrored_copies_are_found_whatever_the_order_of_their_faces() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut room = scene();
+    let [mut seat, mut back] = [1, 2].map(|mesh| (*room.meshes[mesh]).clone());
+    seat.triangles.reverse();
+    back.triangles.reverse();
+    room.meshes.extend([seat.into(), back.into()]);
+    let at = |x: f64, z: f64| DAffine3::from_translation(DVec3::new(x, 0.0, z));
+    let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    let arm = at(0.2, 0.8) * DAffine3::from_rotation_z(0.4);
+    let places = [DAffine3::IDENTITY, at(0.0, 0.0), arm, at(5.0, 0.0) * mirror, at(-5.0, 0.0), at(5.0, 0.0) * mirror * arm];
+    let meshes = [0, 1, 2, 4, 1, 5];
+    for (part, (place, mesh)) in room.parts.iter_mut().zip(places.into_iter().zip(meshes)) {
+        (part.world_from_mesh, part.mesh) = (place, mesh);
+    }
+    let path = folder.path().join("room.scene");
+    std::fs::write(&path, to_bytes(&room)).unwrap();
+    let page = Page::open(&path);
+    page.act(assign(&[1, 2], json!({ "layer": "semantic", "value": 5, "new": true }))).await;
+    let change = page.act(json!({ "type": "same_again", "pieces": [2, 1] })).await;
+    assert_eq!((&change["pieces"], &change["instance"]), (&json!([3, 5]), &json!([2, 2])), "{change}");
+}
+
 #[tokio::test]
 async fn labels_of_an_earlier_version_are_carried_over_by_name_and_shape() {
     let folder = tempfile::tempdir().unwrap();

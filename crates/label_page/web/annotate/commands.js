@@ -62,7 +62,7 @@ export function commands(act) {
         ["thing", "New thing: class and new instance, then go to the next", ["Shift+Enter"], () => void act.makeThing()],
         ["whole", "Select the whole object; again: the one around it", ["Shift+w"], () => act.things.selectWhole()],
         ["whole-thing", "The whole object: class and new instance, then go to the next", ["Ctrl+Enter"], () => void act.things.makeWhole()],
-        ["same-again", "The same again: label all moved copies, an instance each", ["Shift+s"], () => void act.things.sameAgain()],
+        ["same-again", "The same again: label all copies, moved or mirrored, an instance each", ["Shift+s"], () => void act.things.sameAgain()],
         ["clear-label", "Remove the label of this layer", ["Delete", "Backspace"], () => act.clearLabel()],
         ["confirm", "Confirm the suggestion for the selection", ["y"], () => act.confirmSelection()],
         ["reject", "Reject the suggestion for the selection", ["Shift+y"], () => act.withSelection((pieces) => state.reject(pieces))],

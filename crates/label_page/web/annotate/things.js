@@ -1,4 +1,4 @@
-// Whole things: the object that the selection is of, by the groups of the scene; and its moved copies.
+// Whole things: the object that the selection is of, by the groups of the scene; and its copies.
 
 import { toast } from "../shared/toast.js";
 import { wholeOf } from "./whole_objects.js";
@@ -29,7 +29,7 @@ export class Things {
         await this.act.makeThing();
     }
 
-    /** Labels the moved copies of the selection, or of what was labelled last where the selection has no label yet. */
+    /** Labels the copies of the selection, moved or mirrored,, or of what was labelled last where the selection has no label yet. */
     async sameAgain() {
         const { act } = this;
         const isLabelled = (/** @type {number} */ piece) => act.sent.has(piece) || act.state.pieces.semantic[piece] >= 1;
