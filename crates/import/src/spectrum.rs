@@ -78,13 +78,7 @@ pub(crate) fn rgb_of(spectrum: impl Fn(f64) -> f64) -> Rgb {
         (0..3).for_each(|i| xyz[i] += matching[i] * value);
         normalization += matching[1];
     }
-    rgb_of_xyz(xyz.map(|v| v / normalization))
-}
-
-/// Linear Rec. 709 RGB of CIE XYZ with Y = 1 for white; what is out of gamut is cut to zero.
-pub(crate) fn rgb_of_xyz([x, y, z]: [f64; 3]) -> Rgb {
-    let channel = |a: f64, b: f64, c: f64| (a * x + b * y + c * z).max(0.0) as f32;
-    Rgb::new(channel(3.240_97, -1.537_38, -0.498_61), channel(-0.969_24, 1.875_97, 0.041_56), channel(0.055_63, -0.203_98, 1.056_97))
+    Rgb::from_xyz(xyz.map(|v| v / normalization))
 }
 
 /// The CIE 1931 colour matching functions in the multi-lobe fit of Wyman, Sloan & Shirley 2013.

@@ -4,8 +4,8 @@
 //! placed one mesh several times, the motion follows from corresponding corners; else [`Points`] finds it.
 
 use super::action::{Context, Refusal};
-use super::pieces::Pieces;
 use super::congruence::{Points, TOLERANCE, TOLERANCE_M};
+use super::pieces::Pieces;
 use enfilade_label::annotation::Edit;
 use enfilade_math::{DAffine3, DMat3, DVec3};
 use enfilade_scene::PartLabel;

@@ -80,7 +80,8 @@ impl Points {
         let motion = |[p, q]: &[DVec3; 2], mirror: f64| {
             let [from, to] = [frame(along, aside)?, frame(*p - others.middle, *q - others.middle)?];
             let turn = to * DMat3::from_diagonal(DVec3::new(1.0, 1.0, mirror)) * from.transpose();
-            Some(DAffine3::from_mat3_translation(turn, others.middle - turn * self.middle)).filter(|motion| self.are_taken_to(others, motion))
+            Some(DAffine3::from_mat3_translation(turn, others.middle - turn * self.middle))
+                .filter(|motion| self.are_taken_to(others, motion))
         };
         let all = [1.0, -1.0].into_iter().flat_map(|mirror| pairs.iter().filter_map(move |pair| motion(pair, mirror)));
         all.take(MAX_MOTIONS).collect()
@@ -151,7 +152,8 @@ mod tests {
         let from = crate_with_lid();
         let turn = DMat3::from_rotation_z(1.2) * DMat3::from_rotation_x(0.3);
         for mirror in [1.0, -1.0] {
-            let motion = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::new(mirror, 1.0, 1.0)), DVec3::new(5.0, -2.0, 1.0));
+            let motion =
+                DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::new(mirror, 1.0, 1.0)), DVec3::new(5.0, -2.0, 1.0));
             let to = Points::of(&shuffled(&placed(&from, motion), &mut rng));
             let found = Points::of(&from).motions_to(&to);
             assert_eq!(found.len(), 1);

@@ -52,6 +52,12 @@ impl Rgb {
         Self::new(r, g, b)
     }
 
+    /// Linear Rec. 709 of CIE XYZ with Y = 1 for white; what is out of gamut is cut to zero.
+    pub fn from_xyz([x, y, z]: [f64; 3]) -> Self {
+        let channel = |a: f64, b: f64, c: f64| (a * x + b * y + c * z).max(0.0) as f32;
+        Self::new(channel(3.240_97, -1.537_38, -0.498_61), channel(-0.969_24, 1.875_97, 0.041_56), channel(0.055_63, -0.203_98, 1.056_97))
+    }
+
     /// Relative luminance, Rec. 709 weights.
     #[inline]
     pub fn luminance(self) -> f32 {

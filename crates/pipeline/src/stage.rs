@@ -43,7 +43,7 @@ impl Stage {
     /// Changes whenever the stage's outputs change for the same inputs, so that old outputs are made again.
     pub const fn version(self) -> u32 {
         match self {
-            Self::Import => 23,
+            Self::Import => 24,
             Self::Carve => 5,
             Self::Plan => 7,
             Self::Gate => 2,

@@ -19,7 +19,7 @@ impl Reader<'_, '_> {
         let color = color(node, kind)?;
         let constant = node.tag == "spectrum" && node.plugin.is_empty() && node.numbers("value").is_ok_and(|values| values.len() == 1);
         let as_equal_energy = constant && kind == Kind::Emission && self.version >= 2;
-        Ok(if as_equal_energy { color * spectrum::rgb_of_xyz([1.0; 3]) } else { color })
+        Ok(if as_equal_energy { color * Rgb::from_xyz([1.0; 3]) } else { color })
     }
 }
 

@@ -6,7 +6,6 @@ use super::text::{lines, number, unquoted, without_comment};
 use crate::ImportError;
 use crate::assembly::{Assembly, is_absolute};
 use crate::disguise::Content;
-use crate::spectrum::rgb_of_xyz;
 use enfilade_math::Rgb;
 use enfilade_scene::decoded_text;
 use std::collections::{BTreeMap, HashMap};
@@ -224,7 +223,7 @@ impl Entry {
                 [grey, ..] => Some(Rgb::splat(grey)),
                 [] => None,
             },
-            Numbers::Xyz(xyz) => Some(rgb_of_xyz(xyz.map(f64::from)).map(|c| c.max(0.0))),
+            Numbers::Xyz(xyz) => Some(Rgb::from_xyz(xyz.map(f64::from))),
             Numbers::Spectral | Numbers::Other => None,
         }
     }

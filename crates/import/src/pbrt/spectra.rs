@@ -4,7 +4,7 @@ use super::params::{Param, Params, Values};
 use super::reader::Reader;
 use super::version::Version;
 use crate::ImportError;
-use crate::spectrum::{self, Kind, metal, planck, rgb_of, rgb_of_xyz, sampled};
+use crate::spectrum::{self, Kind, metal, planck, rgb_of, sampled};
 use enfilade_math::Rgb;
 
 impl Reader<'_> {
@@ -18,7 +18,7 @@ impl Reader<'_> {
     pub(super) fn color_of(&mut self, params: &Params, param: &Param, kind: Kind) -> Result<Rgb, ImportError> {
         let rgb = match (param.kind.as_str(), &param.values) {
             ("rgb" | "color", Values::Numbers(n)) if n.len() == 3 => return Ok(Rgb::new(n[0] as f32, n[1] as f32, n[2] as f32)),
-            ("xyz", Values::Numbers(n)) if n.len() == 3 => return Ok(rgb_of_xyz([n[0], n[1], n[2]])),
+            ("xyz", Values::Numbers(n)) if n.len() == 3 => return Ok(Rgb::from_xyz([n[0], n[1], n[2]])),
             ("float", Values::Numbers(n)) if n.len() == 1 => return Ok(Rgb::splat(n[0] as f32)),
             ("blackbody", Values::Numbers(n)) if !n.is_empty() => self.blackbody(params, n)?,
             ("spectrum", Values::Numbers(n)) if n.len() >= 2 && n.len().is_multiple_of(2) => {
@@ -132,7 +132,7 @@ fn known(name: &str) -> Option<Rgb> {
         return GLASSES.iter().find(|(n, _)| *n == glass).map(|(_, eta)| Rgb::splat(*eta));
     }
     let (_, x, y) = WHITES.iter().find(|(n, ..)| *n == name)?;
-    Some(rgb_of_xyz([x / y, 1.0, (1.0 - x - y) / y]))
+    Some(Rgb::from_xyz([x / y, 1.0, (1.0 - x - y) / y]))
 }
 
 /// Copper, which metals are by default.

@@ -227,10 +227,9 @@ fn files_that_leave_out_which_way_is_up_are_suspected_as_those_of_formats_that_c
     let lamp = ("", [1.2, 1.2, 0.75], [1.5, 1.5, 1.15]);
     let room = [&ROOM[..], &[table, lamp]].concat();
     let text = |place: Turn| boxes(&room, place);
-    for (name, shapes, unstated, stated) in [
-        ("room.usda", usda as fn(&str) -> String, "", "    upAxis = \"Y\"\n"),
-        ("room.dae", dae, "", "<up_axis>Y_UP</up_axis>"),
-    ] {
+    for (name, shapes, unstated, stated) in
+        [("room.usda", usda as fn(&str) -> String, "", "    upAxis = \"Y\"\n"), ("room.dae", dae, "", "<up_axis>Y_UP</up_axis>")]
+    {
         let file = |head: &str, place: Turn| shapes(&text(place)).replace("UP", head);
         let told = plain(name, &file(unstated, |p| p));
         assert!(told.len() == 1 && told[0].contains("up_axis = \"z\" (or --up-axis z)"), "{name}: {told:?}");
