@@ -25,6 +25,7 @@ use std::collections::HashMap;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelTable {
     pub(super) rows: Vec<Row>,
+    ignored: Vec<String>,
 }
 
 /// One row of a table.
@@ -85,6 +86,9 @@ pub enum TableError {
 const SUBJECTS: [(Subject, &str); 4] =
     [(Subject::Part, "part"), (Subject::Object, "object"), (Subject::Name, "name"), (Subject::Material, "material")];
 
+/// All columns that are read.
+const COLUMNS: [&str; 9] = ["scene", "part", "object", "name", "material", "nyu40_id", "semantic", "nyu40_name", "instance"];
+
 /// Bytes that show what a file is, and how a page of the web begins.
 const HEAD: usize = 1024;
 const PAGE: &str = "<!doctype html";
@@ -120,7 +124,14 @@ impl LabelTable {
             rows.extend(columns.row(&record, line).map_err(|problem| row_error(source_name, line, problem))?);
         }
         refuse_contradictions(&rows, source_name)?;
-        Ok(Self { rows })
+        let is_known = |name: &&str| name.is_empty() || COLUMNS.iter().any(|known| is_called(name, known));
+        let ignored = header.iter().filter(|name| !is_known(name)).map(str::to_string).collect();
+        Ok(Self { rows, ignored })
+    }
+
+    /// Columns that say nothing of labels, by their header.
+    pub fn ignored(&self) -> &[String] {
+        &self.ignored
     }
 
     /// The rows, in the order of the file.
@@ -158,6 +169,11 @@ pub fn class_name(semantic: i16) -> &'static str {
     usize::try_from(semantic).ok().and_then(|id| NYU40.get(id.checked_sub(1)?)).map_or("unlabelled", |class| class.name)
 }
 
+/// Whether the head of a column is that of a known one.
+fn is_called(head: &str, name: &str) -> bool {
+    head.replace([' ', '-'], "_").eq_ignore_ascii_case(name)
+}
+
 /// Index of each known column.
 struct Columns {
     scene: Option<usize>,
@@ -169,7 +185,7 @@ struct Columns {
 
 impl Columns {
     fn find(header: &csv::StringRecord, file: &str) -> Result<Self, TableError> {
-        let find = |name: &str| header.iter().position(|h| h.replace([' ', '-'], "_").eq_ignore_ascii_case(name));
+        let find = |name: &str| header.iter().position(|h| is_called(h, name));
         let missing = |expected| TableError::MissingColumn {
             file: file.into(),
             expected,

@@ -22,7 +22,7 @@ pub fn read(folder: &Path, parts: &[String], cx: &dyn Cx) -> Result<Option<Vec<P
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             bytes => {
                 let bytes = bytes.map_err(|source| DatasetError::Io { action: "read", path: files.file(LIST), source })?;
-                (of_list(folder, &bytes, parts)?, LIST)
+                (of_list(folder, &bytes, parts, cx)?, LIST)
             }
         },
         Err(error) => return Err(error.into()),
@@ -68,7 +68,7 @@ fn of_objects(files: &MeshFiles, folder: &Path, labels: Vec<PartLabel>, parts: &
 }
 
 /// Labels of parts by a table of names.
-fn of_list(folder: &Path, bytes: &[u8], parts: &[String]) -> Result<Vec<PartLabel>, SceneError> {
+fn of_list(folder: &Path, bytes: &[u8], parts: &[String], cx: &dyn Cx) -> Result<Vec<PartLabel>, SceneError> {
     let table = LabelTable::parse(bytes, &folder.join(LIST).display().to_string())?;
     let named: HashMap<&str, PartLabel> = table
         .rows()
@@ -80,6 +80,13 @@ fn of_list(folder: &Path, bytes: &[u8], parts: &[String]) -> Result<Vec<PartLabe
     if known < named.len() {
         let problem = format!("{LIST} names {} parts, of which the scene has {known}", named.len());
         return Err(wrong(folder, problem));
+    }
+    if !table.ignored().is_empty() {
+        let message = format!(
+            "{LIST} has other columns too ({}), which are lost when the table is written with the first edit; keep a copy of it",
+            table.ignored().join(", ")
+        );
+        cx.warn(Warning { place: folder.display().to_string(), message });
     }
     Ok(labels)
 }

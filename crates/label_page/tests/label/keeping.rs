@@ -6,7 +6,7 @@ use enfilade_dataset::{Array, Dataset, MeshFiles};
 use enfilade_frame::Pass;
 use enfilade_label_page::{AnnotateOptions, App};
 use enfilade_math::DVec3;
-use enfilade_scene::{Intrinsics, Labels, PartLabel, Pose, Quiet, Trajectory};
+use enfilade_scene::{Heard, Intrinsics, Labels, PartLabel, Pose, Quiet, Trajectory};
 use serde_json::json;
 
 #[tokio::test]
@@ -347,6 +347,18 @@ mod copied {
             std::fs::copy(copy.join("labels.csv"), folder.path().join("list/labels.csv")).unwrap();
             let options = AnnotateOptions { labels: Some(folder.path().join("list")), ..options };
             runtime.block_on(async { assert_eq!(Page::with(&options).labels().await[3].0, 5) });
+            // Columns that would be lost are told.
+            let list = folder.path().join("list/labels.csv");
+            let rows = std::fs::read_to_string(&list).unwrap();
+            let more: String = rows.lines().enumerate().map(|(i, row)| format!("{row},{}\n", if i == 0 { "remark" } else { "old" })).collect();
+            for (text, told) in [(rows, false), (more, true)] {
+                std::fs::write(&list, text).unwrap();
+                std::fs::remove_file(folder.path().join("list/annotation_log.jsonl")).ok();
+                let heard = Heard::default();
+                App::open(&options, &heard).unwrap();
+                let warnings = heard.lines().join("\n");
+                assert_eq!(warnings.contains("labels.csv has other columns too (remark), which are lost"), told, "{warnings}");
+            }
         }
     }
 

@@ -228,10 +228,10 @@ export class Actions {
         return pieces?.length === 1 ? pieces[0] : null;
     }
 
-    /** Splits the selected piece; what was split off is selected. @param {"component" | "material"} by */
+    /** Splits the selected piece; all that it was split into is selected. @param {"component" | "material"} by */
     async split(by) {
         const piece = this.single();
-        if (piece !== null) this.selectAdded(await this.edits.send({ type: "split", piece, by }));
+        if (piece !== null) this.selectAdded(await this.edits.send({ type: "split", piece, by }), [piece]);
     }
 
     /** Begins to paint faces of the selected piece; if painting already, splits the painted faces off. */
@@ -249,9 +249,9 @@ export class Actions {
         this.selectAdded(change);
     }
 
-    /** @param {any} change */
-    selectAdded(change) {
-        if (change) this.state.select(change.added.map((/** @type {any} */ one) => one.piece));
+    /** Selects what a split has added, beside others. @param {any} change @param {number[]} [others] */
+    selectAdded(change, others = []) {
+        if (change) this.state.select([...others, ...change.added.map((/** @type {any} */ one) => one.piece)]);
     }
 
     endPainting() {

@@ -34,6 +34,8 @@ export class Draw {
         element.addEventListener("pointerup", (event) => this.up(event));
         element.addEventListener("pointercancel", () => this.cancel());
         element.addEventListener("pointerleave", () => this.hover(-1));
+        // What was under the pointer is somewhere else then.
+        stage.addEventListener("camera", () => this.hover(-1));
         element.addEventListener("dblclick", (event) => this.lookHere(event));
     }
 

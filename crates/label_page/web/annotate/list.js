@@ -49,6 +49,15 @@ export class PieceList {
         this.draw();
     }
 
+    /** Goes to the list, and selects its first piece. */
+    begin() {
+        if (this.pieces.length === 0) return;
+        this.element.focus();
+        this.hooks.select(this.pieces[0], false);
+        this.reveal(this.pieces[0]);
+        this.draw();
+    }
+
     /** Brings a piece into sight. @param {number} piece */
     reveal(piece) {
         const at = this.pieces.indexOf(piece);

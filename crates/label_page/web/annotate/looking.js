@@ -3,7 +3,7 @@
 import { Vector3 } from "../vendor/three.js";
 import { postJson } from "../shared/api.js";
 import { byId } from "../shared/dom.js";
-import { toastError } from "../shared/toast.js";
+import { toast, toastError } from "../shared/toast.js";
 import { ceilings } from "./ceilings.js";
 import { extentToShow } from "./extent.js";
 import { rooms } from "./rooms.js";
@@ -32,6 +32,10 @@ export class Looking {
         this.rooms = rooms(state);
         /** The room that is shown alone; -1 for none. */
         this.room = -1;
+        /** True while ceilings are hidden because a room is shown. */
+        this.openedRoom = false;
+        /** What was hidden before a selection was isolated. @type {Set<number>} */
+        this.hiddenBefore = new Set();
         /** Counts flights to pieces, so that a late answer does not end a newer one. */
         this.flights = 0;
         /** All planned frames, in order. */
@@ -63,6 +67,9 @@ export class Looking {
         if (!frame) return;
         this.flights++;
         this.camera = index;
+        // In the box of another room it would see nothing.
+        const { clip } = this.stage;
+        if (clip && frame.position.some((/** @type {number} */ v, /** @type {number} */ axis) => v < clip.min[axis] || v > clip.max[axis])) this.goToRoom(-1);
         byId("cameras").value = String(index);
         history.replaceState(null, "", `#camera=${encodeURIComponent(frame.camera)}:${frame.frame}`);
         this.stage.goTo(frame);
@@ -107,9 +114,12 @@ export class Looking {
             for (const piece of this.ceilings) hidden.delete(piece);
             this.ceilings = null;
         } else {
-            this.ceilings = ceilings(state);
-            for (const piece of this.ceilings) hidden.add(piece);
+            const found = ceilings(state);
+            if (found.length === 0) return toast("Nothing here is known as a ceiling.", "Label it as one, or hide it with H.");
+            this.ceilings = found;
+            for (const piece of found) hidden.add(piece);
         }
+        this.openedRoom = false;
         state.setVisibility(hidden, state.xray, state.isolated);
     }
 
@@ -152,17 +162,23 @@ export class Looking {
     /** Shows a room alone, from above; -1 shows all of the scene. @param {number} index of the rooms */
     goToRoom(index) {
         const room = this.rooms[index];
-        if (!room) return this.clip(null);
+        if (!room) {
+            if (this.openedRoom) this.toggleCeilings();
+            return this.clip(null);
+        }
         this.clip(room);
         this.room = index;
-        if (!this.ceilings) this.toggleCeilings();
+        if (!this.ceilings && ceilings(this.state).length > 0) {
+            this.toggleCeilings();
+            this.openedRoom = true;
+        }
         this.flights++;
         this.stage.frameBox(room.min, room.max, this.#back(ROOM_DOWN_DEG));
         this.state.tell("view");
     }
 
     showAll() {
-        this.ceilings = null;
+        [this.ceilings, this.openedRoom] = [null, false];
         this.clip(null);
         this.state.setVisibility([], []);
     }
@@ -179,8 +195,8 @@ export class Looking {
     /** @param {number[]} pieces */
     isolate(pieces) {
         const { state } = this;
-        this.ceilings = null;
-        if (state.isolated) return state.setVisibility([], state.xray);
+        if (state.isolated) return state.setVisibility(this.hiddenBefore, state.xray);
+        this.hiddenBefore = state.hidden;
         const kept = new Set(pieces);
         state.setVisibility([...Array(state.count).keys()].filter((piece) => !kept.has(piece)), state.xray, true);
     }

@@ -17,6 +17,7 @@ import { counted, Edits } from "./edits.js";
 import { focusReturnsTo } from "./focus.js";
 import { helpOverlay, palette } from "./help.js";
 import { historyPanel } from "./history_panel.js";
+import { keep, takeUp } from "./kept.js";
 import { tabs } from "./panels.js";
 import { called } from "./person.js";
 import { piecesPanel } from "./pieces_panel.js";
@@ -220,7 +221,8 @@ async function start() {
     const draw = new Draw(stage, state, { newInstance: () => act.newInstance(), give: (action) => act.give(action), hovered: readOuts(stage, state) });
     act.giveUpStroke = () => draw.giveUp();
     focusReturnsTo(stage.element);
-    followAddress(act.looking, stage, state);
+    if (!takeUp(state, stage)) followAddress(act.looking, stage, state);
+    keep(state, stage);
     window.addEventListener("hashchange", () => followAddress(act.looking, stage, state));
     followEdits(state, edits, stage, act);
     reportActivity();

@@ -63,6 +63,11 @@ export function piecesPanel(state, act) {
         count.textContent = `${spaced(found.length)} of ${spaced(state.count - state.removed.size)}`;
     }
     search.addEventListener("input", refresh);
+    search.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+        if (event.key !== "Enter" && event.key !== "ArrowDown") return;
+        event.preventDefault();
+        list.begin();
+    });
     const all = el("button", { title: "Select all pieces of this list", onclick: () => state.select(list.pieces) }, "Select all");
     state.on(["pieces"], refresh);
     state.on(["labels"], () => (column === "class" || column === "instance" ? refresh() : list.draw()));

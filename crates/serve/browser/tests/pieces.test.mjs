@@ -14,6 +14,7 @@ test("a part of two components is split, and undo makes it whole", async (t) => 
     await page.keyboard.press("k");
     await saved(page);
     assert.equal(await count(), before + 1);
+    assert.deepEqual(await selected(page), ["lamps", "lamps~2"], "all that it was split into");
     // The view knows the new piece at once.
     await lookFromFront(page);
     await pixelOf(page, "lamps~2");

@@ -156,8 +156,86 @@ test("a room is shown alone", async (t) => {
         return [...stage.seenIn([0, 0, stage.element.clientWidth, stage.element.clientHeight])].map((piece) => state.name(piece)).sort();
     });
     assert.deepEqual(seen.filter((name) => name !== "floor_hall"), ["floor_kitchen", "stove"]);
+    // What asks the server about the view works there too: looking, the eyedropper, and strokes.
+    await select(page, "stove");
+    const flown = page.waitForResponse("**/api/annotate/viewpoint");
+    await page.locator("#stage").focus();
+    await page.keyboard.press("o");
+    assert.equal((await flown).status(), 200);
+    await shown(page);
+    await page.keyboard.type("5");
+    await page.keyboard.press("b");
+    const edited = page.waitForResponse("**/api/annotate/edit");
+    const [x, y] = await pixelOf(page, "stove");
+    await drag(page, [x - 3, y - 3], [x + 3, y + 3]);
+    assert.equal((await edited).status(), 200);
+    assert.equal((await labelOf(page, "stove"))[0], 5);
     await page.keyboard.press("Shift+H");
     assert.equal(await page.locator("#rooms").inputValue(), "-1");
+});
+
+test("a planned camera of another room shows all rooms, and has a point near by to turn about", async (t) => {
+    const flat = (name, x, y) => /** @type {[string, number[][][]]} */ ([`floor_${name}`, [[[x, y, -0.1], [x + 2, y + 2, 0]]]]);
+    const { file } = room(t, [flat("hall", 10, 0), flat("kitchen", 12, 0)]);
+    const context = await (await browser(t)).newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" });
+    const frame = { frame: 0, position: [0, -3, 1], orientation: [1, 0, 0, 0, 0, -1, 0, 1, 0], fov_y_deg: 50, aspect: 1.2, photograph: false };
+    await context.route("**/api/annotate/scene", async (route) => {
+        const scene = await (await route.fetch()).json();
+        await route.fulfill({ json: { ...scene, cameras: [{ name: "cam", frames: [frame] }] } });
+    });
+    const page = await open(context, (await serve(t, file)).url);
+    await page.selectOption("#rooms", { label: "kitchen" });
+    await page.locator("#stage").focus();
+    await page.keyboard.press("]");
+    await shown(page);
+    assert.equal(await page.locator("#rooms").inputValue(), "-1");
+    const ahead = await page.evaluate(() => window.annotate.stage.camera.position.distanceTo(window.annotate.stage.controls.lookAt));
+    assert.ok(Math.abs(ahead - 2) < 1e-6, `${ahead}`);
+});
+
+test("isolating a selection keeps what was hidden before", async (t) => {
+    const page = await openRoom(t);
+    const hidden = () => page.evaluate(() => [...window.annotate.state.hidden].map((piece) => window.annotate.state.name(piece)));
+    await select(page, "floor");
+    await page.locator("#stage").focus();
+    await page.keyboard.press("h");
+    const before = await hidden();
+    assert.deepEqual(before, ["floor"]);
+    await select(page, "chair_1");
+    await page.keyboard.press("v");
+    assert.ok((await hidden()).length > 1);
+    await page.keyboard.press("v");
+    assert.deepEqual(await hidden(), before);
+});
+
+test("a reload keeps the camera, the layer and the class", async (t) => {
+    const page = await openRoom(t);
+    await page.locator("#stage").focus();
+    await page.keyboard.type("5");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("ArrowLeft");
+    const what = () => page.evaluate(() => {
+        const { state, stage } = window.annotate;
+        return [state.layer, state.currentClass, stage.camera.position.toArray().map((v) => v.toFixed(6)), stage.controls.lookAt.toArray().map((v) => v.toFixed(6))];
+    });
+    const before = await what();
+    assert.deepEqual(before.slice(0, 2), ["semantic", 5]);
+    await page.waitForTimeout(500);
+    await page.reload();
+    await shown(page);
+    assert.deepEqual(await what(), before);
+});
+
+test("Enter in the search of pieces goes to the first one found", async (t) => {
+    const page = await openRoom(t);
+    await select(page, "wall");
+    await page.locator("#stage").focus();
+    await page.keyboard.press("/");
+    await page.keyboard.type("chair");
+    await page.keyboard.press("Enter");
+    const [first] = await selected(page);
+    assert.match(first, /chair/u);
+    assert.equal(await page.evaluate(() => document.activeElement?.getAttribute("role")), "listbox");
 });
 
 test("things show as they look, under the picture of a planned frame where it shows them", async (t) => {

@@ -101,6 +101,26 @@ describe("tools", () => {
         await says("ruler", null);
     });
 
+    test("the distance in 3D is that of the surfaces under the cursor", async () => {
+        await open("frame=0&layer=color&mode=space");
+        await page.waitForFunction(() => window.view.space?.stage?.settled && window.view.space.stage.mesh);
+        const box = await page.locator("#space").boundingBox();
+        const at = async (x, y) => {
+            await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+            await page.mouse.move(box.x + x * box.width + 1, box.y + y * box.height);
+            await page.waitForTimeout(100);
+            await page.keyboard.press("j");
+            return page.evaluate(() => window.view.space.stage.pointAt(...window.view.space.pointer).toArray());
+        };
+        const [a, b] = [await at(0.5, 0.6), await at(0.6, 0.7)];
+        const distance = Math.hypot(...a.map((one, axis) => one - b[axis]));
+        const words = await page.locator(".space-span").innerText();
+        assert.ok(Math.abs(Number.parseFloat(words) - distance) < 2e-3 && /° from level$/u.test(words), `${words} ${distance}`);
+        assert.equal(await page.locator("#distance").innerText(), words);
+        await page.keyboard.press("Escape");
+        await says("span", null);
+    });
+
     test("one point is picked among those that are followed", async () => {
         await open("frame=0&layer=color&tracks=true");
         await painted();

@@ -1,6 +1,7 @@
 // Every key of the page and what it does; the help is made of the same table.
 
 import { byId } from "../shared/dom.js";
+import { toast } from "../shared/toast.js";
 import { showHelp } from "./keys.js";
 
 /** @param {import("./page.js").Page} page @returns {import("./keys.js").Group[]} */
@@ -52,7 +53,7 @@ export function commandsOf(page) {
             { keys: ["N"], says: "normals", does: () => show("normal_cam") },
             { keys: ["S"], says: "semantic classes", does: () => show("semantic") },
             { keys: ["I"], says: "instances", does: () => show("semantic_instance") },
-            { keys: ["Ctrl+K"], says: "find a layer by its name", does: () => page.findLayer() },
+            { keys: ["Ctrl+K"], says: "find a layer by its name", does: () => (inGallery() ? toast("Layers are of one frame.", "Open a frame first, with Enter.") : page.findLayer()) },
             { keys: ["X"], says: "exchange the two pictures", does: () => store.set({ layer: store.state.other, other: store.state.layer }) },
         ] },
         { title: "Comparing", keys: [
@@ -80,10 +81,10 @@ export function commandsOf(page) {
             { keys: ["P"], says: "points that are followed", does: () => store.set({ tracks: !store.state.tracks }) },
             { keys: ["Shift+P"], says: "the next of these points alone", does: () => page.tools.nextTrack() },
             { keys: ["L"], says: "logarithmic colours", does: logarithm },
-            { keys: ["J"], says: "measure from this pixel; again: to this one", does: () => page.tools.measure() },
+            { keys: ["J"], says: "measure from here; again: to here", does: () => (store.state.mode === "space" ? page.space?.measure() : page.tools.measure()) },
             { keys: arrows("Ctrl+"), shown: "Ctrl+arrows", says: "read pixel by pixel", does: read(1) },
             { keys: arrows("Ctrl+Shift+"), shown: "Ctrl+Shift+arrows", says: "ten pixels at a time", does: read(10) },
-            { keys: ["Escape"], shown: "Esc", says: "let go of the instance, point, distance", does: () => store.set({ instance: 0, class: 0, track: 0, ruler: "" }) },
+            { keys: ["Escape"], shown: "Esc", says: "let go of the instance, point, distance", does: () => store.set({ instance: 0, class: 0, track: 0, ruler: "", span: "" }) },
         ] },
         { title: "Light", keys: [
             { keys: ["E"], says: "half a stop brighter", does: () => store.set({ stops: store.state.stops + 0.5 }) },

@@ -5,7 +5,7 @@ import { MAPS, MASKS, TRAITS, cssColor } from "./colors.js";
 import { barsOf, sampleOf } from "./histogram.js";
 import { rangeOf } from "./kinds.js";
 import { PERCENTILES, brief } from "./numbers.js";
-import { rulerWords } from "./ruler.js";
+import { rulerWords, spanWords } from "./ruler.js";
 import { countOf, factsOf } from "./tracks.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -47,11 +47,14 @@ function trackPart({ camera, store, tracks }) {
     ];
 }
 
-/** The distance between two pixels. @param {Session} session */
+/** The distance between two pixels, or in 3D between two places. @param {Session} session */
 function rulerPart(session) {
-    const { ruler } = session.store.state;
-    if (!ruler) return [];
-    return [el("h2", {}, "Distance"), el("p", { id: "distance" }, rulerWords(session)), el("button", { type: "button", "data-key": "ruler", onclick: () => session.store.set({ ruler: "" }) }, "Remove")];
+    const { store } = session;
+    const { mode, ruler, span } = store.state;
+    const key = mode === "space" ? "span" : "ruler";
+    if (!(key === "span" ? span : ruler)) return [];
+    const words = key === "span" ? spanWords(span) : rulerWords(session);
+    return [el("h2", {}, "Distance"), el("p", { id: "distance" }, words), el("button", { type: "button", "data-key": key, onclick: () => store.set({ [key]: "" }) }, "Remove")];
 }
 
 /** What the difference of the two pictures comes to. @param {Session} session */

@@ -61,12 +61,14 @@ function columnField(store, column, values) {
         const wrong = a !== null && b !== null && a > b;
         refused.textContent = wrong ? `The min, ${column.show(a)}, must be at most the max, ${column.show(b)}.` : "";
         for (const end of ends) end.setAttribute("aria-invalid", String(wrong));
-        if (wrong) return;
+        if (!wrong) limit(a, b);
+    };
+    const limit = (/** @type {number | null} */ a, /** @type {number | null} */ b) => {
         const { [column.name]: _, ...others } = store.state.limits;
         store.set({ limits: a === null && b === null ? others : { ...others, [column.name]: [a, b] } });
     };
     const input = (/** @type {string} */ label, /** @type {number | null} */ value, /** @type {number} */ bound) =>
         el("input", { type: "number", step: "any", "data-key": `${column.name} ${label}`, "aria-label": `${column.says}, ${label}`, placeholder: brief(bound * column.factor), value: value === null ? "" : String(Number((value * column.factor).toPrecision(12))), onchange: set });
     const ends = [input("min", low, min), input("max", high, max)];
-    return el("fieldset", { class: "column-field" }, el("legend", {}, column.says, el("span", { class: "quiet" }, column.unit ? `, ${column.unit}` : "")), barsOf(values, [min, max], BARS, [low ?? min, high ?? max], column.show), el("div", { class: "pair" }, ...ends), refused);
+    return el("fieldset", { class: "column-field" }, el("legend", {}, column.says, el("span", { class: "quiet" }, column.unit ? `, ${column.unit}` : "")), barsOf(values, [min, max], BARS, [low ?? min, high ?? max], column.show, (range) => limit(range && range[0] > min ? range[0] : null, range && range[1] < max ? range[1] : null)), el("div", { class: "pair" }, ...ends), refused);
 }

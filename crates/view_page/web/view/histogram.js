@@ -54,8 +54,9 @@ export function sampleOf(data) {
  * @param {number} parts
  * @param {[number, number]} chosen
  * @param {(value: number) => string} show a value in words
+ * @param {((range: [number, number] | null) => void)} [choose] takes the range that is dragged over; null for a click, which takes it back
  */
-export function barsOf(values, range, parts, chosen, show) {
+export function barsOf(values, range, parts, chosen, show, choose) {
     const counts = countsOf(values, range, parts);
     const most = Math.max(1, ...counts);
     const width = (range[1] - range[0]) / parts;
@@ -76,5 +77,42 @@ export function barsOf(values, range, parts, chosen, show) {
         bar.append(title);
         svg.append(bar);
     }
+    if (choose) draggable(svg, range, parts, choose);
     return el("div", { class: "bars" }, svg, el("div", { class: "ends number quiet" }, el("span", {}, show(range[0])), el("span", {}, show(range[1]))));
+}
+
+/**
+ * Chooses a range by dragging over bars.
+ * @param {SVGSVGElement} svg
+ * @param {[number, number]} range
+ * @param {number} parts
+ * @param {(range: [number, number] | null) => void} choose
+ */
+function draggable(svg, range, parts, choose) {
+    const width = (range[1] - range[0]) / parts;
+    const barAt = (/** @type {PointerEvent} */ event) => {
+        const box = svg.getBoundingClientRect();
+        return Math.min(parts - 1, Math.max(0, Math.floor(((event.clientX - box.left) / box.width) * parts)));
+    };
+    /** The bars where the drag began and is now. @type {[number, number] | null} */
+    let drag = null;
+    const ends = (/** @type {[number, number]} */ [a, b]) => [Math.min(a, b), Math.max(a, b)];
+    svg.classList.add("draggable");
+    svg.addEventListener("pointerdown", (event) => {
+        if (event.button !== 0) return;
+        svg.setPointerCapture(event.pointerId);
+        drag = [barAt(event), barAt(event)];
+    });
+    svg.addEventListener("pointermove", (event) => {
+        if (!drag) return;
+        drag[1] = barAt(event);
+        const [first, last] = ends(drag);
+        for (const [i, bar] of svg.querySelectorAll("rect").entries()) bar.classList.toggle("chosen", i >= first && i <= last);
+    });
+    svg.addEventListener("pointerup", () => {
+        if (!drag) return;
+        const [first, last] = ends(drag);
+        drag = null;
+        choose(first === last ? null : [range[0] + first * width, range[0] + (last + 1) * width]);
+    });
 }

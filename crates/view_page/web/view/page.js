@@ -118,23 +118,25 @@ export class Page {
             this.controls();
         }
         if (has("scene", "camera", "frame")) this.known = null;
-        this.#keepRuler(state, has("ruler"));
+        this.#keepRuler(state, has("ruler", "span"));
         if (has("ruler")) this.session.refresh();
         if (has("frame", "track")) this.tools.followTrack();
         if (has("frame", "layer", "mode", "camera")) this.tools.tell();
         if (has("frame")) this.strip.show();
         if (has("frame", "mode", "instance")) this.#space();
         if (has("view")) this.space?.look();
+        if (has("span")) this.space?.ruler();
         if (has("mode", "sort", "down", "within", "show", "gate", "law", "shows", "limits", "scene", "camera")) this.gallery.show();
         this.panelKey = "";
         this.stage.refresh();
     }
 
-    /** What was measured is of one frame, and ends with it. @param {State} state @param {boolean} isNew */
-    #keepRuler({ scene, camera, frame, ruler }, isNew) {
+    /** What was measured is of one frame, or in 3D of one scene, and ends with it. @param {State} state @param {boolean} isNew */
+    #keepRuler({ scene, camera, frame, ruler, span }, isNew) {
         if (isNew) this.place = "";
         if (!scene || !camera) return;
         const place = `${scene}/${camera}/${frame}`;
+        if (span && this.place !== "" && !this.place.startsWith(`${scene}/`)) this.store.set({ span: "" }, { step: false });
         const isOther = this.place !== "" && this.place !== place;
         this.place = place;
         if (ruler && isOther) this.store.set({ ruler: "" }, { step: false });

@@ -1,4 +1,4 @@
-// The distance between the surfaces of two pixels of a frame, by the places that are stored of them.
+// Distances: between the surfaces of two pixels of a frame, by the places that are stored of them, and between two places in 3D.
 
 import { brief, pixelOf } from "./numbers.js";
 import { PLACES } from "./session.js";
@@ -31,8 +31,35 @@ export function measured(session) {
     if (ends.length < 2 || data?.step !== 1) return null;
     const [a, b] = ends.map(([x, y]) => pixelOf(data, x, y));
     if (!a || !b || ![...a, ...b].every(Number.isFinite)) return { distance: null, level: 0, up: 0 };
+    return between(a, b);
+}
+
+/** @param {number[]} a @param {number[]} b */
+function between(a, b) {
     const [x, y, z] = [0, 1, 2].map((axis) => b[axis] - a[axis]);
     return { distance: Math.hypot(x, y, z), level: Math.hypot(x, y), up: z };
+}
+
+/** A distance in words: how long, how far on the level and up, and how steep. @param {{ distance: number, level: number, up: number }} found */
+const inWords = ({ distance, level, up }) => `${distance.toFixed(3)} m; ${level.toFixed(3)} m level, ${brief(up)} m up, ${((Math.atan2(up, level) * 180) / Math.PI).toFixed(1)}° from level`;
+
+/** The places in 3D as the state has them. @param {string} span @returns {number[][]} */
+export function placesOf(span) {
+    const numbers = span.split(",").map(Number);
+    if (span === "" || !numbers.every(Number.isFinite) || ![3, 6].includes(numbers.length)) return [];
+    return [numbers.slice(0, 3), numbers.slice(3)].filter((place) => place.length > 0);
+}
+
+/** The distance in 3D with another end: the second, or after that the first of a new one. @param {string} span @param {number[]} place */
+export function withPlace(span, place) {
+    const text = place.map((v) => String(Number(v.toFixed(4)))).join(",");
+    return placesOf(span).length === 1 ? `${span},${text}` : text;
+}
+
+/** What is measured in 3D, in words. @param {string} span */
+export function spanWords(span) {
+    const [a, b] = placesOf(span);
+    return b ? inWords(between(a, b)) : "Point at the other end and press J.";
 }
 
 /** What is measured, in words. @param {Session} session */
@@ -42,7 +69,7 @@ export function rulerWords(session) {
     if (!session.layersOf(frame).includes(PLACES)) return "This frame has no positions to measure by.";
     const found = measured(session);
     if (!found) return "Reading …";
-    return found.distance === null ? "A pixel shows no surface." : `${found.distance.toFixed(3)} m; ${found.level.toFixed(3)} m level, ${brief(found.up)} m up`;
+    return found.distance === null ? "A pixel shows no surface." : inWords({ ...found, distance: found.distance });
 }
 
 /**

@@ -5,11 +5,13 @@ import { getBytes } from "../shared/api.js";
 import { byId, el } from "../shared/dom.js";
 import { readGeometry } from "../shared/stage3d/geometry.js";
 import { Stage3d } from "../shared/stage3d/stage.js";
+import { say } from "../shared/say.js";
 import { themeColor } from "../shared/theme.js";
-import { toastError } from "../shared/toast.js";
+import { toast, toastError } from "../shared/toast.js";
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, Vector3 } from "../vendor/three.js";
 import { idColor } from "./colors.js";
 import { BOX_EDGES, boxCorners } from "./project.js";
+import { placesOf, spanWords, withPlace } from "./ruler.js";
 import { spaceControls } from "./space_controls.js";
 import { framePoints } from "./space_points.js";
 import { placeOf, viewOf } from "./space_view.js";
@@ -24,8 +26,6 @@ const POINTS = 150_000;
 /** Maximum distance of a click from a camera, CSS pixels. */
 const REACH_PX = 14;
 
-/** Distance of the point that orbiting turns about from a frame's camera, metres. */
-const AHEAD_M = 2;
 /** The address follows the camera when it has rested for this long. */
 const REST_MS = 300;
 /** Windows narrower than this have the panel folded at first, CSS pixels. */
@@ -50,6 +50,10 @@ export class Space {
         this.atFrame = true;
         /** What the address says of the camera. */
         this.written = "";
+        /** Where the pointer was last, CSS pixels of the view. @type {[number, number] | null} */
+        this.pointer = null;
+        /** What is measured, drawn over everything. @type {Group | null} */
+        this.measured = null;
         /** Keys of what is shown, so that nothing is fetched or made twice. */
         this.shown = { scene: "", trajectory: "", frame: "", space: "" };
     }
@@ -61,7 +65,7 @@ export class Space {
         this.element.hidden = !wanted;
         if (!wanted || !this.session.scene) return;
         // If one kind of thing cannot be loaded, the others are shown all the same.
-        for (const part of [() => this.stage ?? this.#begin(), () => this.#surfaces(), () => this.#trajectory(), () => this.#points(), () => this.#cubes()]) {
+        for (const part of [() => this.stage ?? this.#begin(), () => this.#surfaces(), () => this.#trajectory(), () => this.#points(), () => this.#cubes(), () => this.ruler()]) {
             try {
                 await part();
             } catch (error) {
@@ -74,7 +78,8 @@ export class Space {
         const view = el("div", { style: "position:absolute;inset:0", tabIndex: 0, role: "application", "aria-label": "The scene in 3D" });
         this.label = el("output", { class: "space-label panel", "aria-live": "off" });
         this.panel = el("div", { class: "space-panel" });
-        this.element.replaceChildren(view, this.panel, this.label);
+        this.span = el("output", { class: "space-span panel", "aria-live": "off" });
+        this.element.replaceChildren(view, this.panel, this.span, this.label);
         this.stage = new Stage3d(view);
         this.theme();
         this.#choices();
@@ -97,7 +102,10 @@ export class Space {
             if (pressed && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 4) this.#choose(event);
             pressed = null;
         }, true);
-        view.addEventListener("pointerleave", () => this.#name(-1));
+        view.addEventListener("pointerleave", () => {
+            this.pointer = null;
+            this.#name(-1);
+        });
         this.stage.addEventListener("camera", () => this.#later());
     }
 
@@ -123,6 +131,32 @@ export class Space {
         this.#visibility();
         this.stage.goTo(place.camera, { instant });
         this.stage.controls.lookAt.set(...place.target);
+    }
+
+    /** Puts an end of the distance at the surface under the cursor. */
+    measure() {
+        const place = this.pointer && this.stage?.mesh ? this.stage.pointAt(...this.pointer) : null;
+        if (!place) return toast("Point at a surface to measure.", "J begins there, and J at another ends there.");
+        const span = withPlace(this.session.store.state.span, place.toArray());
+        this.session.store.set({ span, tab: "display" });
+        say(spanWords(span));
+    }
+
+    /** Shows what is measured. */
+    ruler() {
+        const { span } = this.session.store.state;
+        const places = placesOf(span);
+        this.measured?.traverse((object) => /** @type {any} */ (object).geometry?.dispose());
+        this.measured?.removeFromParent();
+        this.measured = null;
+        if (this.span) this.span.textContent = places.length > 0 ? spanWords(span) : "";
+        if (places.length > 0 && this.stage) {
+            const shape = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(places.flat()), 3));
+            const look = { color: 0xffdc5a, depthTest: false, transparent: true };
+            this.measured = new Group().add(new Line(shape, new LineBasicMaterial(look)), new Points(shape, new PointsMaterial({ ...look, size: 9, sizeAttenuation: false })));
+            this.stage.scene.add(this.measured);
+        }
+        this.stage?.requestFrame();
     }
 
     theme() {
@@ -165,8 +199,6 @@ export class Space {
         if (!pose || !this.stage) return;
         const { width = 1024, height = 768, fov_y_deg = 60 } = camera?.projection ?? {};
         this.stage.goTo({ ...pose, fov_y_deg: Math.min(fov_y_deg ?? 60, 120), width, height }, { instant });
-        const ahead = [2, 5, 8].map((at) => -pose.orientation[at]);
-        this.stage.controls.lookAt.fromArray(pose.position).addScaledVector(new Vector3(...ahead), AHEAD_M);
     }
 
     /** Looks down at the whole scene, with the ceilings off. */
@@ -339,6 +371,8 @@ export class Space {
 
     /** @param {PointerEvent} event */
     #hover(event) {
+        const { left, top } = this.element.getBoundingClientRect();
+        this.pointer = [event.clientX - left, event.clientY - top];
         if (this.looking) return;
         // Once per picture of the screen: reading from the graphics card takes a while.
         this.looking = requestAnimationFrame(() => {

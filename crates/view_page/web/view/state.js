@@ -27,6 +27,7 @@
  * @property {boolean} tracks points that are followed are drawn over the picture
  * @property {number} track point that is followed alone, from 1; 0: all
  * @property {string} ruler the pixels that a distance is measured between: x,y,x,y; of one x,y where the other is to come; empty: none
+ * @property {string} span the places in 3D that a distance is measured between, metres: x,y,z,x,y,z; of one x,y,z where the other is to come; empty: none
  * @property {number} class that alone is shown in colour; 0: all
  * @property {number} instance that stays marked; 0: none
  * @property {string} tab of the panel on the right
@@ -44,7 +45,7 @@
 /** @type {State} */
 const BEGINNING = {
     scene: "", camera: "", frame: -1, layer: "color", other: "depth_meters", otherFrame: null, otherCamera: "", mode: "one", flicker: false, wipe: 0.5, zoom: 0, x: 0.5, y: 0.5,
-    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, tracks: false, track: 0, ruler: "", class: 0, instance: 0, tab: "display", view: "",
+    tone: "hypersim", expose: "frame", stops: 0, ranges: {}, maps: {}, logs: {}, boxes: false, names: false, tracks: false, track: 0, ruler: "", span: "", class: 0, instance: 0, tab: "display", view: "",
     sort: "", down: false, within: "all", show: "rendered", gate: "", law: "", shows: 0, limits: {},
 };
 

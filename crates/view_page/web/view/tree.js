@@ -40,7 +40,7 @@ export class Tree {
             return el("li", {}, el("button", { type: "button", class: "plain", "aria-current": String(open), title: name, onclick: () => this.#open(name) }, name), cameras);
         };
         byId("scenes").replaceChildren(...found.slice(0, MAX_SHOWN).map(item), ...(found.length > MAX_SHOWN ? [el("li", { class: "quiet" }, `and ${found.length - MAX_SHOWN} more`)] : []),
-            ...(found.length ? [] : [el("li", { class: "quiet" }, "No scene has such a name.")]));
+            ...(found.length ? [] : [el("li", { class: "quiet" }, dataset.scenes.length ? "No scene has such a name." : "No scenes yet.")]));
         byId("pages").replaceChildren(...[...dataset.pages, ...(scene?.pages ?? [])].map((page) => el("a", { href: fileUrl(page.path), target: "_blank" }, page.title)));
     }
 

@@ -23,6 +23,8 @@ import { Refinement } from "./refine.js";
 import { HIDDEN, PREVIEWED, SELECTED, XRAY } from "./shaders.js";
 import { HATCHING, Tables } from "./tables.js";
 
+/** Distance of the point that orbiting turns about, and that the wheel goes toward, from a camera that was gone to, metres. */
+const AHEAD_M = 2;
 /** Minimum distance of the near plane from the camera, metres. */
 const NEAR_M = 0.05;
 /** Distance of the far plane if there are no faces, metres. */
@@ -262,8 +264,7 @@ export class Stage3d extends EventTarget {
      */
     goTo(json, { instant = false } = {}) {
         const to = { position: new Vector3(...json.position), quaternion: rotation(json.orientation), fov: fittingFov(json, this.camera.aspect) };
-        const distance = this.camera.position.distanceTo(this.controls.lookAt) || 2;
-        this.controls.lookAt.copy(to.position).addScaledVector(forward(to.quaternion), distance);
+        this.controls.lookAt.copy(to.position).addScaledVector(forward(to.quaternion), AHEAD_M);
         if (!instant && !motionReduced()) {
             this.flight = new Flight(this.camera, to, performance.now());
         } else {
@@ -299,7 +300,7 @@ export class Stage3d extends EventTarget {
 
     /** What lies outside of a box is neither drawn nor picked. @param {{ min: number[], max: number[] } | null} box metres; null for no box */
     setClip(box) {
-        this.clip = box;
+        this.clip = box && { min: box.min, max: box.max };
         this.mesh?.setClip(box);
         this.meshChanged();
     }
