@@ -124,7 +124,8 @@ export class Draw {
     click(place, more) {
         const { piece } = this.stage.seenAt(...place);
         const selection = new Set(more ? this.state.selection : []);
-        if (piece >= 0 && !selection.delete(piece)) selection.add(piece);
+        const isIn = selection.has(piece);
+        for (const one of piece < 0 ? [] : this.state.grown(piece)) isIn ? selection.delete(one) : selection.add(one);
         this.state.select(selection);
     }
 

@@ -199,6 +199,13 @@ export class State extends EventTarget {
         this.tell("visibility");
     }
 
+    /** What a piece stands for: itself, or all of its instance or class. @param {number} piece @returns {number[]} */
+    grown(piece) {
+        const column = this.expand === "piece" ? null : this.expand === "instance" ? this.pieces.instance : this.pieces.semantic;
+        if (!column || column[piece] < 1) return [piece];
+        return [...Array(this.count).keys()].filter((one) => column[one] === column[piece]);
+    }
+
     /** Pieces that rays pass through. */
     get unseen() {
         return [...new Set([...this.hidden, ...this.xray])].filter((piece) => piece < this.count && !this.removed.has(piece));

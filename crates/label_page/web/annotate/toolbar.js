@@ -81,7 +81,7 @@ export function topBar(state, table, act) {
     realLook.disabled = !act.realLook.isKnown;
     if (realLook.disabled) realLook.title = "The scene has neither materials nor pictures";
     byId("view-buttons").append(
-        button("whole-scene", "Whole"),
+        button("whole-scene", "All"),
         button("from-above", "Above"),
         realLook,
         button("ceilings", "Hide ceilings", () => looking.ceilings !== null),

@@ -208,6 +208,24 @@ test("isolating a selection keeps what was hidden before", async (t) => {
     assert.deepEqual(await hidden(), before);
 });
 
+test("a click selects all of the class where that is asked for", async (t) => {
+    const page = await openRoom(t);
+    await page.evaluate(async () => {
+        const { names } = window.annotate.state.pieces;
+        const pieces = [...names.keys()].filter((piece) => names[piece].includes("chair"));
+        await window.annotate.edits.send({ type: "assign", pieces, apply: { layer: "semantic", value: 5 } });
+    });
+    await page.locator("#stage").focus();
+    await page.keyboard.press("Alt+3");
+    await lookFromFront(page);
+    await page.mouse.click(...(await pixelOf(page, "chair_1")));
+    const chairs = await selected(page);
+    assert.ok(chairs.length > 1 && chairs.every((name) => name.includes("chair")), `${chairs}`);
+    await page.keyboard.press("Alt+1");
+    await page.mouse.click(...(await pixelOf(page, "chair_1")));
+    assert.equal((await selected(page)).length, 1);
+});
+
 test("a reload keeps the camera, the layer and the class", async (t) => {
     const page = await openRoom(t);
     await page.locator("#stage").focus();
