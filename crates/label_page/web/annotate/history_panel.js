@@ -28,8 +28,8 @@ export function historyPanel(state, edits) {
     };
     /** @param {HistoryRow} one @param {string} kind @param {() => void} go */
     const row = ({ description, time, who }, kind, go) =>
-        el("button", { class: `edit ${kind}`, title: who ? `${description}, by ${who}` : description, onclick: go }, el("span", { class: "quiet number" }, new Date(time).toLocaleTimeString()), el("span", { class: "name" }, description),
-            who && who !== edits.who ? el("span", { class: "quiet" }, who) : null);
+        el("button", { class: `edit ${kind}`, title: who ? `${description}, by ${who}` : description, onclick: go }, el("span", { class: "quiet number" }, new Date(time).toLocaleTimeString([], { hour12: false })), el("span", { class: "name" }, description),
+            who && who !== edits.who ? el("span", { class: "quiet who" }, who) : null);
     async function refresh() {
         if (panel.hidden) return;
         try {

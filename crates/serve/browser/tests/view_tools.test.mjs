@@ -77,7 +77,7 @@ describe("tools", () => {
         await page.locator("#stage").focus();
         await page.keyboard.press("Control+k");
         await page.keyboard.type("rough");
-        assert.deepEqual(await page.locator("#layer-list [aria-selected=true] code").allInnerTexts(), ["roughness"]);
+        assert.deepEqual(await page.locator("#layer-list [aria-selected=true] span").allInnerTexts(), ["roughness"]);
         await page.keyboard.press("Enter");
         await says("layer", "roughness");
         await page.click("#find-layer");

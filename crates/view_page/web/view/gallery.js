@@ -158,7 +158,8 @@ export class Gallery {
     #place(row, i) {
         const by = this.rows.columnOf(this.store.state, this.store.state.sort);
         const value = by?.value(row) ?? null;
-        const name = `${this.session.dataset.scenes.length > 1 ? `${row.scene} ` : ""}${row.camera} ${row.frame}`;
+        // The number first: it is what tells neighbours apart where the caption is cut.
+        const name = `${row.frame} ${row.camera}${this.session.dataset.scenes.length > 1 ? ` ${row.scene}` : ""}`;
         const why = row.faults.map(faultText).concat(row.laws.map((law) => `check fails: ${law}`));
         const url = row.version ? thumbnailUrl(row.scene, row.camera, row.frame, row.version) : row.picture ? fileUrl(row.picture) : null;
         const mark = this.marks.of(row);

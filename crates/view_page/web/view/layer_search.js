@@ -14,7 +14,7 @@ export function layerSearch(session) {
     let at = 0;
     const textOf = (/** @type {string} */ name) => `${session.looks.title(name)} ${name} ${session.looks.spec(name).description}`.toLowerCase();
     function draw() {
-        list.replaceChildren(...found.map((name, i) => el("div", { role: "option", id: `layer-option-${i}`, "aria-selected": String(i === at), onclick: () => show(name) }, el("span", {}, session.looks.title(name)), el("code", { class: "quiet" }, name))));
+        list.replaceChildren(...found.map((name, i) => el("div", { role: "option", id: `layer-option-${i}`, "aria-selected": String(i === at), onclick: () => show(name) }, el("span", {}, session.looks.title(name)), session.looks.title(name) === name ? null : el("code", { class: "quiet" }, name))));
         list.hidden = found.length === 0;
         none.textContent = found.length === 0 ? "No layer of this frame has these words." : "";
         if (found.length > 0) input.setAttribute("aria-activedescendant", `layer-option-${at}`);
