@@ -39,9 +39,8 @@
 //!   so that nothing is lost on the way.
 //! - A scene has no colours of vertices. If a file has them, their mean colours the part (glTF, OBJ, PLY, USD's display
 //!   colour, `mesh_attribute` of Mitsuba) or they are dropped (FBX, pbrt); the report says so.
-//! - Animations of nodes (glTF, FBX, USD, COLLADA) are rigid motion of bodies, those of skins, morph targets and scales of glTF shapes over
-//!   time. Skins and morph targets of FBX have the pose that the file states, those of USD and COLLADA stay at rest; the report says so, and
-//!   what else of an animation was left out.
+//! - Animations of nodes (glTF, FBX, USD, COLLADA) are rigid motion of bodies, those of skins, morph targets and scales shapes over time; the
+//!   report says what else of an animation was left out.
 //!
 //! # Formats
 //!

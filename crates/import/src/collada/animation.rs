@@ -11,7 +11,7 @@ use std::collections::HashMap;
 /// Most moments of one channel.
 const MOST_MOMENTS: usize = 200_000;
 
-/// The channels of a file, by the transforms that they change.
+/// The channels of a file, by the transforms, and sources of weights, that they change.
 #[derive(Default)]
 pub(super) struct Animations {
     channels: HashMap<roxmltree::NodeId, Vec<Channel>>,
@@ -92,17 +92,28 @@ impl Animations {
 
 /// What an address such as `door/rotateZ.ANGLE` means.
 fn target<'d>(dae: &Dae<'d>, address: &str) -> Result<Target<'d>, String> {
-    let none = || "it moves no transform of a node, and nothing else can be moved".to_string();
+    let none = || "it moves no transform of a node and no weight of a morph, and nothing else can be moved".to_string();
     let mut steps = address.split('/');
-    let mut element = steps.next().and_then(|id| dae.by_id(id)).ok_or_else(none)?;
-    let mut member = "";
+    let split = |step: &'_ str| step.find(['.', '(']).unwrap_or(step.len());
+    let id = steps.next().ok_or_else(none)?;
+    let (mut element, mut member) = match dae.by_id(id) {
+        Some(element) => (element, ""),
+        // A number of the element itself; ids may have dots.
+        None => (dae.by_id(&id[..split(id)]).ok_or_else(none)?, &id[split(id)..]),
+    };
     for step in steps {
-        let end = step.find(['.', '(']).unwrap_or(step.len());
+        let end = split(step);
         member = &step[end..];
         let sid = &step[..end];
         element = element.descendants().find(|n| n.attribute("sid") == Some(sid)).ok_or_else(none)?;
     }
-    let all = width(element.tag_name().name()).ok_or_else(none)?;
+    // Weights of morphs are the numbers of a source.
+    if element.tag_name().name() == "float_array" {
+        element = element.parent_element().ok_or_else(none)?;
+    }
+    let is_of_morph = element.parent_element().is_some_and(|parent| parent.tag_name().name() == "morph");
+    let weights = || array_of(dae, element, "float_array").filter(|_| is_of_morph).map(|array| numbers(array).0.len());
+    let all = width(element.tag_name().name()).or_else(weights).filter(|all| *all > 0).ok_or_else(none)?;
     if member.is_empty() {
         return Ok(Target { transform: element, first: None, width: all });
     }
@@ -168,7 +179,7 @@ fn curve(dae: &Dae, channel: Node, width: usize, a: &mut Assembly) -> Result<Cur
 }
 
 /// The array that a source's values are in.
-fn array_of<'d>(dae: &Dae<'d>, source: Node<'d>, tag: &str) -> Option<Node<'d>> {
+pub(super) fn array_of<'d>(dae: &Dae<'d>, source: Node<'d>, tag: &str) -> Option<Node<'d>> {
     let accessor = at(source, &["technique_common", "accessor"]);
     let named = accessor.and_then(|accessor| dae.target(accessor.attribute("source")?));
     named.filter(|array| array.tag_name().name() == tag).or_else(|| child(source, tag))

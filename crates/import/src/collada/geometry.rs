@@ -42,6 +42,11 @@ impl Source {
     fn len(&self) -> usize {
         self.values.len().saturating_sub(self.offset).div_ceil(self.stride.max(1))
     }
+
+    /// All of it that is whole, as points.
+    fn points(&self) -> Vec<DVec3> {
+        (0..self.len() as u32).filter_map(|i| self.get(i).map(DVec3::from_array)).collect()
+    }
 }
 
 /// A source that the corners of a primitive refer to.
@@ -60,19 +65,38 @@ struct Inputs {
     stride: usize,
 }
 
-/// The mesh of a primitive with the set of texture coordinates `set`, and the point from which its positions count.
+/// The mesh of a primitive.
+pub(super) struct Made {
+    pub mesh: Mesh,
+    /// The point from which its positions count.
+    pub origin: DVec3,
+    /// The vertex of the geometry that each vertex of the mesh is.
+    pub points: Vec<u32>,
+    /// The vertices of the geometry.
+    pub all: Vec<DVec3>,
+}
+
+/// The vertices of a geometry; none where it has no mesh.
+pub(super) fn positions(dae: &Dae, geometry: Node, a: &mut Assembly) -> Vec<DVec3> {
+    let vertices = child(geometry, "mesh").and_then(|mesh| child(mesh, "vertices"));
+    let input = vertices.and_then(|v| children(v, "input").find(|input| input.attribute("semantic") == Some("POSITION")));
+    let source = input.and_then(|input| dae.target(input.attribute("source")?)).map(|node| source(dae, node, a));
+    source.map(|source| source.points()).unwrap_or_default()
+}
+
+/// The mesh of a primitive with the set of texture coordinates `set`.
 ///
 /// # Errors
 /// When it refers to vertices that are not there, or has no positions.
-pub(super) fn mesh(dae: &Dae, primitive: Node, set: Option<&str>, a: &mut Assembly) -> Result<(Mesh, DVec3), ImportError> {
+pub(super) fn mesh(dae: &Dae, primitive: Node, set: Option<&str>, a: &mut Assembly) -> Result<Made, ImportError> {
     let geometry = primitive.ancestors().find(|n| n.tag_name().name() == "geometry").unwrap_or(primitive);
     let place = called(geometry);
     let inputs = inputs(dae, primitive, set, a).map_err(|problem| a.malformed(&place, format!("{problem}; export the file again")))?;
     let polygons = polygons(primitive, inputs.stride, &place, a)
         .map_err(|problem| a.malformed(&place, format!("{problem}; export the file again")))?;
-    let all = (0..inputs.position.source.len() as u32).filter_map(|i| inputs.position.source.get(i).map(DVec3::from_array));
-    let origin = origin_of(all, a.meters_per_unit());
-    let mut builder = Builder { inputs: &inputs, origin, mesh: Mesh::default(), known: HashMap::new(), dangling: 0 };
+    let all = inputs.position.source.points();
+    let origin = origin_of(all.iter().copied(), a.meters_per_unit());
+    let mut builder = Builder { inputs: &inputs, origin, mesh: Mesh::default(), points: Vec::new(), known: HashMap::new(), dangling: 0 };
     for corners in &polygons {
         builder.add(corners).map_err(|problem| a.malformed(&place, format!("{problem}; export the file again")))?;
     }
@@ -80,13 +104,15 @@ pub(super) fn mesh(dae: &Dae, primitive: Node, set: Option<&str>, a: &mut Assemb
         let message = format!("{} corners refer to normals or texture coordinates that are not there; they are without", builder.dangling);
         a.warn(place, message);
     }
-    Ok((builder.mesh, origin))
+    let Builder { mesh, points, .. } = builder;
+    Ok(Made { mesh, origin, points, all })
 }
 
 struct Builder<'i> {
     inputs: &'i Inputs,
     origin: DVec3,
     mesh: Mesh,
+    points: Vec<u32>,
     known: HashMap<[u32; 3], u32>,
     dangling: usize,
 }
@@ -120,6 +146,7 @@ impl Builder<'_> {
         let found: Option<[f64; 3]> = position.source.get(key[0]);
         let found = found.ok_or_else(|| format!("a face refers to vertex {}, but there are only {}", key[0], position.source.len()))?;
         self.mesh.positions.push((DVec3::from_array(found) - self.origin).as_vec3());
+        self.points.push(key[0]);
         if let Some(normal) = normal {
             let found = normal.source.get::<3>(key[1]);
             self.dangling += usize::from(found.is_none());

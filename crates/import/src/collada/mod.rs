@@ -7,20 +7,21 @@
 //! | `node` | an object with its parts, named after its `name`, else its `id`; `matrix`, `translate`, `rotate`, `scale`, `lookat`, `skew` in their order; `instance_node` |
 //! | `instance_geometry` | a part per primitive; `.<material>` is appended where a geometry has several. Meshes are shared between nodes |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | polygons are cut into triangles; the outer line of those with holes; lines are left out |
-//! | `instance_controller` | a skin in its bind pose, a morph as its base mesh |
+//! | `instance_controller` | a skin in the pose of its joints, a morph (`NORMALIZED`, `RELATIVE`) by its weights, a skin of a morph too, over time where joints or weights move. What names no joints of the scene stays as it was bound, with a warning. Normals of morphs are made anew |
 //! | texture coordinates | the set that `bind_vertex_input` names, else the first |
 //! | `profile_COMMON` | `lambert`, `phong`, `blinn`, `constant`: a diffuse surface; with `specular` a clear-coated one of GGX alpha √(2/(shininess+2)); `emission`; `transparent` and `transparency` in all four modes. An opacity of zero is taken for one, with a warning, since programs disagree about what zero means |
 //! | colours | sRGB, as three.js takes them; those of Blender linear, as it writes them |
 //! | textures | by `sampler2D` and `surface`, or by the picture's own id; wrapping |
 //! | cameras | perspective |
 //! | lights | point, spot and directional ones. COLLADA states no unit: strengths are W/sr and W/m² (Blender's are its watts and are divided by 4π); attenuation is that of light. Ambient light is left out |
-//! | `library_animations` | all channels of the transforms of nodes, on their own clock: whole transforms, single numbers, elements of matrices; steps, lines, Bézier's and Hermite's curves. Matrices turn the shortest way between two moments; scales and shears stay those of the scene |
+//! | `library_animations` | all channels of the transforms of nodes and of the weights of morphs, on their own clock: whole transforms, single numbers, elements of matrices; steps, lines, Bézier's and Hermite's curves. Matrices turn the shortest way between two moments; scales and shears stay those of the scene |
 //! | left out, with a warning | animations of all else, bump maps, reflections, other profiles, physics, files that a file refers to |
 //!
 //! Surfaces have two sides and emit on both.
 
 mod animation;
 mod curve;
+mod deform;
 mod document;
 mod geometry;
 mod light;

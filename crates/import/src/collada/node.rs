@@ -1,15 +1,17 @@
 //! The nodes of the visual scene: transforms, and what they place.
 
 use super::animation::Animations;
-use super::document::{Dae, Node, at, called, child, children, exactly};
+use super::deform::{self, Deform};
+use super::document::{Dae, Node, at, called, children};
 use super::material::Materials;
-use super::transform::{Transforms, affine};
+use super::transform::Transforms;
 use super::{geometry, light};
 use crate::ImportError;
 use crate::assembly::Assembly;
-use crate::motion::Changing;
+use crate::motion::{Changing, Moved};
+use enfilade_geometry::Mesh;
 use enfilade_math::DAffine3;
-use enfilade_scene::{BodyId, ObjectId, PartLabel};
+use enfilade_scene::{BodyId, ObjectId, PartLabel, Shape};
 use std::collections::HashMap;
 
 /// Nodes within nodes deeper than this are taken for a cycle.
@@ -28,7 +30,7 @@ pub(super) fn place_scene(dae: &Dae, a: &mut Assembly) -> Result<(), ImportError
             let nodes: Vec<Node> = children(scene, "node").collect();
             for (i, node) in nodes.iter().enumerate() {
                 a.progress(i + 1, nodes.len());
-                placer.node(*node, Within { file_from_parent: DAffine3::IDENTITY, object: None, body: None, depth: 0 }, a)?;
+                placer.node(*node, &Within::default(), a)?;
             }
         }
         None => {
@@ -44,13 +46,16 @@ pub(super) fn place_scene(dae: &Dae, a: &mut Assembly) -> Result<(), ImportError
 }
 
 /// What a node is in.
-#[derive(Clone, Copy)]
-struct Within {
+#[derive(Default)]
+struct Within<'d> {
     file_from_parent: DAffine3,
     object: Option<ObjectId>,
     /// The body that bears it.
     body: Option<BodyId>,
-    depth: usize,
+    /// The nodes, from the outermost on.
+    chain: Vec<Node<'d>>,
+    /// Whether one of them changes its scale or shear, so that what is in it deforms.
+    is_stretched: bool,
 }
 
 struct Placer<'p, 'd> {
@@ -63,9 +68,9 @@ struct Placer<'p, 'd> {
 }
 
 impl<'d> Placer<'_, 'd> {
-    fn node(&mut self, node: Node<'d>, within: Within, a: &mut Assembly) -> Result<(), ImportError> {
+    fn node(&mut self, node: Node<'d>, within: &Within<'d>, a: &mut Assembly) -> Result<(), ImportError> {
         self.visits += 1;
-        if within.depth > MAX_DEPTH || self.visits > MAX_VISITS {
+        if within.chain.len() > MAX_DEPTH || self.visits > MAX_VISITS {
             return Err(a.malformed(
                 called(node),
                 format!("nodes are nested more than {MAX_DEPTH} deep, or more than {MAX_VISITS}; check its instances"),
@@ -75,13 +80,16 @@ impl<'d> Placer<'_, 'd> {
         let transforms = Transforms::of(node, self.animations, a)?;
         let file_from_node = within.file_from_parent * transforms.rest();
         let object = a.push_object(name, within.object);
-        let body = moving(node, name, &transforms, &within, a).or(within.body);
-        let inner = Within { file_from_parent: file_from_node, object: Some(object), body, depth: within.depth + 1 };
+        let Moved { body, problem } = moving(node, name, &transforms, within, a);
+        let is_stretched = within.is_stretched || problem.is_some();
+        let body = body.or(within.body).filter(|_| !is_stretched);
+        let chain = [&within.chain[..], &[node]].concat();
+        let inner = Within { file_from_parent: file_from_node, object: Some(object), body, chain, is_stretched };
         for child_node in node.children().filter(roxmltree::Node::is_element) {
             let url = child_node.attribute("url").unwrap_or_default();
             let tag = child_node.tag_name().name();
             if tag == "node" {
-                self.node(child_node, inner, a)?;
+                self.node(child_node, &inner, a)?;
             }
             if !tag.starts_with("instance_") {
                 continue;
@@ -93,17 +101,27 @@ impl<'d> Placer<'_, 'd> {
             let before = a.contents();
             match tag {
                 "instance_node" => {
-                    self.node(target, inner, a)?;
+                    self.node(target, &inner, a)?;
                     continue;
                 }
+                "instance_geometry" if is_stretched => {
+                    let deform = Deform::of_nodes(&inner.chain, self.animations, a)?;
+                    self.deformed((target, child_node), name, &deform, &inner, a)?;
+                }
                 "instance_geometry" => self.geometry(target, child_node, name, file_from_node, Some(object), a)?,
-                "instance_controller" => self.controller(target, child_node, name, file_from_node, object, a)?,
+                "instance_controller" => self.controller(target, child_node, name, &inner, a)?,
                 "instance_light" => light::add_light(self.dae, target, name, file_from_node, a),
                 "instance_camera" => light::add_camera(target, name, file_from_node, a),
                 other => a.warn(called(node), format!("{other} is not supported and was left out")),
             }
+            if is_stretched && matches!(tag, "instance_light" | "instance_camera") {
+                a.warn(
+                    called(node),
+                    "its scale or shear changes, which lights and cameras do not follow; they stay where they are at rest",
+                );
+            }
             // Joints place a skin by themselves.
-            let is_skin = tag == "instance_controller" && child(target, "skin").is_some();
+            let is_skin = tag == "instance_controller" && deform::skin_of(target).is_some();
             if let Some(body) = body.filter(|_| !is_skin) {
                 a.carry(body, before);
             }
@@ -131,9 +149,9 @@ impl<'d> Placer<'_, 'd> {
             let mesh = match self.meshes.get(&key) {
                 Some(known) => *known,
                 None => {
-                    let (mesh, origin) = geometry::mesh(self.dae, primitive, set.as_deref(), a)?;
+                    let made = geometry::mesh(self.dae, primitive, set.as_deref(), a)?;
                     let file = a.file().to_path_buf();
-                    let pushed = a.push_mesh_from(origin, mesh, &file, &called(geometry))?;
+                    let pushed = a.push_mesh_from(made.origin, made.mesh, &file, &called(geometry))?;
                     self.meshes.insert(key, pushed);
                     pushed
                 }
@@ -146,28 +164,62 @@ impl<'d> Placer<'_, 'd> {
         Ok(())
     }
 
-    /// Adds what a controller moves: a skin as it was bound, a morph as its base.
+    /// Adds what a controller moves: in the pose of its joints and with its weights, or where these make no sense as it was bound.
     fn controller(
         &mut self,
         controller: Node<'d>,
         instance: Node<'d>,
         name: &str,
-        file_from_node: DAffine3,
-        object: ObjectId,
+        within: &Within<'d>,
         a: &mut Assembly,
     ) -> Result<(), ImportError> {
-        let skin = child(controller, "skin");
-        let source = skin.or_else(|| child(controller, "morph")).and_then(|n| self.dae.target(n.attribute("source")?));
-        let Some(source) = source.filter(|n| n.tag_name().name() == "geometry") else {
+        let Some(source) = deform::source(self.dae, controller) else {
             a.warn(called(controller), "it moves no geometry of the file and was left out");
             return Ok(());
         };
-        a.warn("library_controllers", "skins are in their bind pose, morphs are their base meshes");
-        let bound =
-            skin.and_then(|skin| child(skin, "bind_shape_matrix")).and_then(exactly::<16>).map_or(DAffine3::IDENTITY, |m| affine(&m));
-        // Joints place a skin by themselves, whatever the position of its node.
-        let placement = if skin.is_some() { bound } else { file_from_node };
-        self.geometry(source, instance, name, placement, Some(object), a)
+        let deform = match Deform::read(self.dae, controller, instance, self.animations, a)? {
+            Ok(deform) => deform,
+            Err(problem) => {
+                deform::stays(controller, &problem, a);
+                // Joints place a skin by themselves, whatever the position of its node.
+                let placement = deform::skin_of(controller).map_or(within.file_from_parent, deform::bind_shape);
+                return self.geometry(source, instance, name, placement, within.object, a);
+            }
+        };
+        let deform = if within.is_stretched { deform.within(&within.chain, self.animations, a)? } else { deform };
+        self.deformed((source, instance), name, &deform, within, a)
+    }
+
+    /// Adds the parts of a geometry whose shape may change; `instance` binds its materials.
+    fn deformed(
+        &mut self,
+        (geometry, instance): (Node<'d>, Node<'d>),
+        name: &str,
+        deform: &Deform,
+        within: &Within<'d>,
+        a: &mut Assembly,
+    ) -> Result<(), ImportError> {
+        let placement = if deform.has_joints() { DAffine3::IDENTITY } else { within.file_from_parent };
+        let bearer = within.body.filter(|_| !deform.has_joints());
+        let object = within.object.unwrap_or_else(|| a.push_object(name, None));
+        let primitives = geometry::primitives(geometry, a);
+        let several = primitives.len() > 1;
+        for primitive in primitives {
+            let symbol = primitive.attribute("material");
+            let made = geometry::mesh(self.dae, primitive, self.set(instance, symbol).as_deref(), a)?;
+            let Shape { positions, normals } = deform.shape(&made, None);
+            let mesh = Mesh { positions, normals, triangles: deform.triangles(&made.mesh), ..made.mesh.clone() };
+            let file = a.file().to_path_buf();
+            let Some(mesh) = a.push_mesh_from(made.origin, mesh, &file, &called(geometry))? else { continue };
+            let material = self.materials.of(self.dae, instance, symbol, a)?;
+            let part = if several { format!("{name}.{}", a.material_at(material).name) } else { name.to_string() };
+            let placed = a.push_part_of(object, &part, mesh, material, placement, PartLabel::NONE);
+            let timed = deform.timed(&made, (&placement, &called(instance)), a);
+            if let (Some(placed), Some(timed)) = (placed, timed) {
+                a.deform(placed, bearer, timed);
+            }
+        }
+        Ok(())
     }
 
     /// The set of texture coordinates that the instance binds to a material.
@@ -179,13 +231,13 @@ impl<'d> Placer<'_, 'd> {
     }
 }
 
-/// The body that a node is, if it moves by itself.
-fn moving(node: Node, name: &str, transforms: &Transforms, within: &Within, a: &mut Assembly) -> Option<BodyId> {
+/// The body that a node is, if it moves by itself, and why that is not all of its motion.
+fn moving(node: Node, name: &str, transforms: &Transforms, within: &Within, a: &mut Assembly) -> Moved {
     let moments = transforms.moments();
     if moments.is_empty() {
-        return None;
+        return Moved { body: None, problem: None };
     }
     let (local, told) = (|time_s, side| transforms.at(time_s, side), |time_s| format!("{time_s} s"));
     let node = Changing { place: &called(node), name, rest: transforms.rest(), moments, local: &local, told: &told };
-    node.body((within.file_from_parent, within.body), a)
+    node.moved((within.file_from_parent, within.body), a)
 }

@@ -31,16 +31,6 @@ pub(crate) struct Moved {
 }
 
 impl Changing<'_> {
-    /// The body that the node is; `None` where it stays, with a warning if it should not.
-    pub(crate) fn body(self, within: (DAffine3, Option<BodyId>), a: &mut Assembly) -> Option<BodyId> {
-        let place = self.place;
-        let Moved { body, problem } = self.moved(within, a);
-        if let Some(problem) = problem {
-            a.warn(place, problem);
-        }
-        body
-    }
-
     /// The body that the node is, and what is missing of its motion then.
     pub(crate) fn moved(self, (file_from_parent, bearer): (DAffine3, Option<BodyId>), a: &mut Assembly) -> Moved {
         let length = length_in(&file_from_parent, a.meters_per_unit());

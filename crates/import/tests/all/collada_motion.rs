@@ -97,7 +97,6 @@ fn channels_that_cannot_be_used_are_told_and_the_rest_moves() {
         ("n/t.ANGLE", &straight, "found \".ANGLE\", expected .X, .Y, .Z, .ANGLE or a number of the 3 in brackets"),
         ("g/color", &straight, "it moves no transform of a node"),
         ("n/t.X", &straight, "another one moves the same numbers"),
-        ("n/s.X", &[("INPUT", "0 1"), ("OUTPUT", "1 2")], "it changes its scale or shear, which no rigid motion does"),
     ] {
         let imported = load(&(animation("ok", "n/t.X", &straight) + &animation("odd", target, inputs)), node);
         let text = warnings(&imported);

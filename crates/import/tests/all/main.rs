@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod collada;
+mod collada_deforming;
 mod collada_motion;
 mod common;
 mod disguises;

@@ -350,7 +350,8 @@ mod copied {
             // Columns that would be lost are told.
             let list = folder.path().join("list/labels.csv");
             let rows = std::fs::read_to_string(&list).unwrap();
-            let more: String = rows.lines().enumerate().map(|(i, row)| format!("{row},{}\n", if i == 0 { "remark" } else { "old" })).collect();
+            let more: String =
+                rows.lines().enumerate().map(|(i, row)| format!("{row},{}\n", if i == 0 { "remark" } else { "old" })).collect();
             for (text, told) in [(rows, false), (more, true)] {
                 std::fs::write(&list, text).unwrap();
                 std::fs::remove_file(folder.path().join("list/annotation_log.jsonl")).ok();
