@@ -1,6 +1,6 @@
 //! The result of an import: the scene, its labels, the files it was made of, and the report.
 
-use crate::ImportReport;
+use crate::{ImportReport, UpStated};
 use enfilade_math::DMat3;
 use enfilade_scene::{PartId, PartLabel, PictureFiles, Scene};
 use serde::{Deserialize, Serialize};
@@ -13,17 +13,6 @@ pub struct ImportedLabel {
     pub part: PartId,
     /// Class and instance of the part.
     pub label: PartLabel,
-}
-
-/// Where it is stated which way is up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UpStated {
-    /// Nowhere.
-    Nowhere,
-    /// In the rules of the format alone, which programs that write it break: libraries of Python write scenes with z up as glTF as they are.
-    ByRule,
-    /// In the file, or by [`ImportOptions::up_axis`](crate::ImportOptions::up_axis).
-    ByFile,
 }
 
 /// An imported scene.

@@ -135,6 +135,17 @@ impl ImportOptions {
     }
 }
 
+/// Where it is stated which way is up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpStated {
+    /// Nowhere.
+    Nowhere,
+    /// In the rules of the format alone, which programs that write it break: libraries of Python write scenes with z up as glTF as they are.
+    ByRule,
+    /// In the file, or by [`ImportOptions::up_axis`](crate::ImportOptions::up_axis).
+    ByFile,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
