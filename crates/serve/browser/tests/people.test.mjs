@@ -95,7 +95,7 @@ test("one key selects the whole object, one makes it a thing, and one labels its
     assert.deepEqual(await labelOf(page, "desk_2/top"), [-1, -1]);
     await select(page, "wall_back");
     for (const key of ["1", "Enter", "Shift+s"]) await page.keyboard.press(key);
-    await page.getByText('there is no moved copy of "wall_back"').waitFor();
+    await page.getByText('there is no copy of "wall_back"').waitFor();
 });
 
 test("the dot, and arrows in the view, tell where they lead", async (t) => {
