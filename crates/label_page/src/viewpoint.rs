@@ -23,9 +23,8 @@ const NEARER: [f32; 4] = [1.0, 0.7, 0.45, 0.3];
 const ROOM: f32 = 1.4;
 /// Smaller pieces are looked at as if they had this radius, metres.
 const SMALLEST_M: f32 = 0.15;
-/// Bonuses added to the share that is seen: for being inside, with something above and below, which a free sight of a wall from outside must
-/// not outweigh, and for looking the same way as before.
-const INSIDE: f32 = 0.5;
+/// Bonuses added to the share that is seen: for being inside, with something above and below, and for looking the same way as before.
+const INSIDE: f32 = 0.2;
 const SAME_WAY: f32 = 0.1;
 
 /// A place for the camera, and the point to look at, metres.
