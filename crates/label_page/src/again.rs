@@ -4,10 +4,10 @@
 //! placed one mesh several times, the motion follows from corresponding corners; else [`Points`] finds it.
 
 use super::action::{Context, Refusal};
-use super::congruence::{Points, TOLERANCE, TOLERANCE_M};
+use super::congruence::{Points, TOLERANCE, TOLERANCE_M, frame};
 use super::pieces::Pieces;
 use enfilade_label::annotation::Edit;
-use enfilade_math::{DAffine3, DMat3, DVec3};
+use enfilade_math::{DAffine3, DVec3};
 use enfilade_scene::PartLabel;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -163,20 +163,14 @@ fn motion(from: &[DVec3], to: &[DVec3]) -> Option<DAffine3> {
     if (from[third] - first).reject_from_normalized(along).length() < FLAT * from[second].distance(first) {
         return None;
     }
-    let rotation = frame(to[0], to[second], to[third])? * frame(first, from[second], from[third])?.transpose();
+    let rotation = frame(to[second] - to[0], to[third] - to[0])? * frame(from[second] - first, from[third] - first)?.transpose();
     Some(DAffine3::from_mat3_translation(rotation, to[0] - rotation * first))
-}
-
-/// Axes by three points: along the first two, and square to all.
-fn frame(origin: DVec3, along: DVec3, aside: DVec3) -> Option<DMat3> {
-    let x = (along - origin).try_normalize()?;
-    let z = x.cross(aside - origin).try_normalize()?;
-    Some(DMat3::from_cols(x, z.cross(x), z))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use enfilade_math::DMat3;
 
     #[test]
     fn a_motion_is_found_by_corners_and_a_mirror_is_none() {

@@ -31,7 +31,7 @@ pub(super) struct Points {
 }
 
 impl Points {
-    /// Those of a surface by the corners of its faces, three for each.
+    /// The points of a surface by the corners of its faces, three for each.
     pub(super) fn of(corners: &[DVec3]) -> Self {
         let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
         let mut points = Self { middle, all: Vec::new(), cells: HashMap::new(), radius: 0.0 };
@@ -115,7 +115,7 @@ fn cell(point: DVec3) -> [i64; 3] {
 }
 
 /// Axes by two directions: along the first, and square to both.
-fn frame(along: DVec3, aside: DVec3) -> Option<DMat3> {
+pub(super) fn frame(along: DVec3, aside: DVec3) -> Option<DMat3> {
     let x = along.try_normalize()?;
     let z = x.cross(aside).try_normalize()?;
     Some(DMat3::from_cols(x, z.cross(x), z))

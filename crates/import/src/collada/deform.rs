@@ -102,7 +102,7 @@ impl<'p> Deform<'p> {
         Ok(Self { morph: None, skin: Some(Skin::of_nodes(nodes, animations, a)?) })
     }
 
-    /// The same in nodes of which one changes its scale or shear; joints place a skin by themselves.
+    /// A controller in nodes of which one changes its scale or shear; joints place a skin by themselves.
     ///
     /// # Errors
     /// When a node has a transform that is none.
@@ -233,10 +233,8 @@ impl<'p> Skin<'p> {
         let mut known: HashMap<roxmltree::NodeId, usize> = HashMap::new();
         let mut found = Self { bind_shape: bind_shape(skin), nodes: Vec::new(), joints: Vec::new(), held: Some(held) };
         for (name, inverse_bind) in names.into_iter().zip(inverse_binds) {
-            let Some(joint) = by_name.get(name.as_str()).copied().or_else(|| dae.by_id(&name)) else {
-                return Ok(Err(format!("its joint {name:?} is no node of the scene")));
-            };
-            let mut chain: Vec<Node> = joint.ancestors().filter(|n| n.tag_name().name() == "node").collect();
+            let joint = by_name.get(name.as_str()).copied().or_else(|| dae.by_id(&name));
+            let mut chain: Vec<Node> = joint.iter().flat_map(Node::ancestors).filter(|n| n.tag_name().name() == "node").collect();
             chain.reverse();
             let mut parent = None;
             for node in chain {

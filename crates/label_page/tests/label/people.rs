@@ -3,8 +3,9 @@
 use crate::room::{Page, assign, class, package, scene};
 use enfilade_label_page::{AnnotateOptions, App};
 use enfilade_math::{DAffine3, DVec3};
-use enfilade_scene::{Quiet, to_bytes};
+use enfilade_scene::{Quiet, Scene, to_bytes};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// An action of a person: status and answer.
 async fn by(page: &Page, who: &str, action: Value) -> (u16, Value) {
@@ -74,23 +75,28 @@ async fn copies_are_labelled_with_instances_of_their_own() {
     assert!(page.refused(json!({ "type": "same_again", "pieces": [0] })).await.1.contains("no class to give"));
 }
 
+/// The change by labelling the second and third part as one thing, and its copies alike, in a room whose parts have these places and meshes.
+async fn same_again(folder: &Path, mut room: Scene, places: [DAffine3; 6], meshes: [u32; 6]) -> Value {
+    for (part, (place, mesh)) in room.parts.iter_mut().zip(places.into_iter().zip(meshes)) {
+        (part.world_from_mesh, part.mesh) = (place, mesh);
+    }
+    let path = folder.join("room.scene");
+    std::fs::write(&path, to_bytes(&room)).unwrap();
+    let page = Page::open(&path);
+    page.act(assign(&[1, 2], json!({ "layer": "semantic", "value": 5, "new": true }))).await;
+    page.act(json!({ "type": "same_again", "pieces": [2, 1] })).await
+}
+
 /// The room as two seats of two boxes each, one turned, and two boxes that stand otherwise.
 #[tokio::test]
 async fn copies_of_several_pieces_have_the_same_arrangement() {
     let folder = tempfile::tempdir().unwrap();
-    let mut room = scene();
+    let room = scene();
     let seat = |x: f64, turn: f64| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)) * DAffine3::from_rotation_z(turn);
     let above = DAffine3::from_translation(DVec3::new(0.2, 0.0, 0.8));
     let places = [DAffine3::IDENTITY, seat(0.0, 0.0), seat(0.0, 0.0) * above, seat(5.0, 1.0), seat(-5.0, 0.0), seat(5.0, 1.0) * above];
     let meshes = [0, 1, 2, 1, 1, 2];
-    for (part, (place, mesh)) in room.parts.iter_mut().zip(places.into_iter().zip(meshes)) {
-        (part.world_from_mesh, part.mesh) = (place, mesh);
-    }
-    let path = folder.path().join("room.scene");
-    std::fs::write(&path, to_bytes(&room)).unwrap();
-    let page = Page::open(&path);
-    page.act(assign(&[1, 2], json!({ "layer": "semantic", "value": 5, "new": true }))).await;
-    let change = page.act(json!({ "type": "same_again", "pieces": [2, 1] })).await;
+    let change = same_again(folder.path(), room, places, meshes).await;
     assert_eq!((&change["pieces"], &change["instance"]), (&json!([3, 5]), &json!([2, 2])), "{change}");
 }
 
@@ -108,14 +114,7 @@ async fn mirrored_copies_are_found_whatever_the_order_of_their_faces() {
     let arm = at(0.2, 0.8) * DAffine3::from_rotation_z(0.4);
     let places = [DAffine3::IDENTITY, at(0.0, 0.0), arm, at(5.0, 0.0) * mirror, at(-5.0, 0.0), at(5.0, 0.0) * mirror * arm];
     let meshes = [0, 1, 2, 4, 1, 5];
-    for (part, (place, mesh)) in room.parts.iter_mut().zip(places.into_iter().zip(meshes)) {
-        (part.world_from_mesh, part.mesh) = (place, mesh);
-    }
-    let path = folder.path().join("room.scene");
-    std::fs::write(&path, to_bytes(&room)).unwrap();
-    let page = Page::open(&path);
-    page.act(assign(&[1, 2], json!({ "layer": "semantic", "value": 5, "new": true }))).await;
-    let change = page.act(json!({ "type": "same_again", "pieces": [2, 1] })).await;
+    let change = same_again(folder.path(), room, places, meshes).await;
     assert_eq!((&change["pieces"], &change["instance"]), (&json!([3, 5]), &json!([2, 2])), "{change}");
 }
 

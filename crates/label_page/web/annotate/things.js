@@ -29,7 +29,7 @@ export class Things {
         await this.act.makeThing();
     }
 
-    /** Labels the copies of the selection, moved or mirrored,, or of what was labelled last where the selection has no label yet. */
+    /** Labels the copies of the selection, moved or mirrored, or of what was labelled last where the selection has no label yet. */
     async sameAgain() {
         const { act } = this;
         const isLabelled = (/** @type {number} */ piece) => act.sent.has(piece) || act.state.pieces.semantic[piece] >= 1;
